@@ -1,0 +1,94 @@
+#include "drying/checkpoint.h"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace windfall::drying {
+
+namespace {
+
+constexpr int kVersion = 1;
+
+// Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements.
+nlohmann::json head_of(const Checkpoint& checkpoint) {
+    nlohmann::json history = nlohmann::json::array();
+    for (const StepRecord& r : checkpoint.path.history)
+        history.push_back({r.shrinkage, r.depth_rms, r.elastic_energy, r.viscous_work,
+                           r.smallest_volume_ratio, r.newton_steps, r.linear_iterations, r.failures});
+    return {{"version", kVersion},
+            {"shrinkage", checkpoint.path.shrinkage},
+            {"next_step", checkpoint.path.next_step},
+            {"past_steps", checkpoint.path.past_steps},
+            {"displacements", checkpoint.path.displacements.size()},
+            {"history", history},
+            {"frames_done", checkpoint.frames_done},
+            {"elapsed_s", checkpoint.elapsed_s}};
+}
+
+Checkpoint from_head(const nlohmann::json& head) {
+    Checkpoint checkpoint;
+    checkpoint.path.shrinkage = head.at("shrinkage").get<double>();
+    checkpoint.path.next_step = head.at("next_step").get<double>();
+    checkpoint.path.past_steps = head.at("past_steps").get<std::vector<double>>();
+    for (const auto& r : head.at("history"))
+        checkpoint.path.history.push_back(
+            {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(), r.at(3).get<double>(),
+             r.at(4).get<double>(), r.at(5).get<int>(), r.at(6).get<int>(), r.at(7).get<int>()});
+    checkpoint.frames_done = head.at("frames_done").get<int>();
+    checkpoint.elapsed_s = head.at("elapsed_s").get<double>();
+    return checkpoint;
+}
+
+}  // namespace
+
+std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
+    const std::vector<std::uint8_t> head = nlohmann::json::to_cbor(head_of(checkpoint));
+    std::size_t size = sizeof(std::uint64_t) + head.size();
+    for (const auto& displacement : checkpoint.path.displacements)
+        size += displacement.size() * sizeof(double);
+    std::vector<std::byte> bytes(size);
+    std::byte* out = bytes.data();
+    const auto put = [&out](const void* data, std::size_t count) {
+        std::memcpy(out, data, count);
+        out += count;
+    };
+    const std::uint64_t length = head.size();
+    put(&length, sizeof(length));
+    put(head.data(), head.size());
+    for (const auto& displacement : checkpoint.path.displacements)
+        put(displacement.data(), displacement.size() * sizeof(double));
+    return bytes;
+}
+
+Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size) {
+    const InputError broken(
+        "the take's checkpoint does not fit this program or this recipe: run again with --force to begin "
+        "anew");
+    std::uint64_t length = 0;
+    if (bytes.size() < sizeof(length)) throw broken;
+    std::memcpy(&length, bytes.data(), sizeof(length));
+    bytes = bytes.subspan(sizeof(length));
+    if (length > bytes.size()) throw broken;
+    try {
+        const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+        const auto head = nlohmann::json::from_cbor(begin, begin + length);
+        bytes = bytes.subspan(length);
+        if (head.at("version") != kVersion) throw broken;
+        Checkpoint checkpoint = from_head(head);
+        const auto count = head.at("displacements").get<std::size_t>();
+        const std::size_t vector_bytes = vector_size * sizeof(double);
+        if (count < 1 || count > 3 || bytes.size() != count * vector_bytes ||
+            checkpoint.path.past_steps.size() + 1 != count)
+            throw broken;
+        for (std::size_t i = 0; i < count; ++i) {
+            AlignedArray<double> displacement(vector_size);
+            std::memcpy(displacement.data(), bytes.data() + i * vector_bytes, vector_bytes);
+            checkpoint.path.displacements.push_back(std::move(displacement));
+        }
+        return checkpoint;
+    } catch (const nlohmann::json::exception&) {
+        throw broken;
+    }
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,41 @@
+#pragma once
+// Preconditioned conjugate gradients inside a trust region (Steihaug 1983).
+#include "core/run_context.h"
+#include "drying/multigrid.h"
+
+namespace windfall::drying {
+
+enum class LinearStatus {
+    Converged,          ///< the residual fell below the tolerance
+    OnBoundary,         ///< the step reached the trust region's radius
+    NegativeCurvature,  ///< a direction of negative curvature was followed to the radius
+    IterationLimit,
+    NotDefinite,  ///< the preconditioner is not positive definite; there is no step
+};
+
+struct LinearResult {
+    LinearStatus status = LinearStatus::Converged;
+    int iterations = 0;
+    double relative_residual = 1;
+};
+
+/// Solves A x = b with the multigrid's finest matrix. Single precision vectors, double sums in a fixed order.
+class ConjugateGradients {
+  public:
+    /// `mass`: [column][layers], weights of the norm that the trust region is measured in, of sum 1.
+    ConjugateGradients(Multigrid& multigrid, const AlignedArray<float>& mass);
+
+    /// Starts from x = 0. `radius` is the largest mass-weighted root mean square of x; infinity for none.
+    LinearResult solve(const AlignedArray<float>& b, AlignedArray<float>& x, double tolerance,
+                       int max_iterations, double radius, const RunContext& context);
+
+    /// Mass-weighted inner product.
+    double mass_dot(const AlignedArray<float>& a, const AlignedArray<float>& b) const;
+
+  private:
+    Multigrid& m_multigrid;
+    const AlignedArray<float>& m_mass;
+    AlignedArray<float> m_residual, m_last_residual, m_preconditioned, m_direction, m_product;
+};
+
+}  // namespace windfall::drying

@@ -1,0 +1,37 @@
+#include "drying/drying_field.h"
+
+#include <Eigen/Geometry>
+
+namespace windfall::drying {
+
+RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkageParameters& parameters)
+    : m_parameters(parameters), m_flesh_layers(mesh.flesh_layers) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
+    for (const auto& quad : mesh.brick.quads) {
+        Eigen::Vector3d radial = Eigen::Vector3d::Zero();
+        for (const std::int32_t vertex : quad) radial += mesh.directions[vertex];
+        radial.normalize();
+        // At the poles all directions across the axis are alike.
+        Eigen::Vector3d latitudinal = axis.cross(radial);
+        if (latitudinal.norm() < 1e-9) latitudinal = Eigen::Vector3d::UnitX();
+        latitudinal.normalize();
+        Eigen::Matrix3d frame;
+        frame << radial, latitudinal.cross(radial), latitudinal;
+        m_frames.push_back(frame);
+    }
+}
+
+DryingField RecipeDrying::at(double shrinkage) const {
+    return [this, shrinkage](std::size_t quad, int layer) -> Eigen::Matrix3d {
+        const double own = layer < m_flesh_layers ? shrinkage : shrinkage * m_parameters.skin_fraction;
+        const Eigen::Vector3d stretches(1 - own * m_parameters.radial, 1 - own * m_parameters.meridional,
+                                        1 - own * m_parameters.latitudinal);
+        // Exactly a multiple of the identity where it should be: rounding in the frames must not leak in.
+        if (stretches.x() == stretches.y() && stretches.y() == stretches.z())
+            return stretches.x() * Eigen::Matrix3d::Identity();
+        const Eigen::Matrix3d& frame = m_frames[quad];
+        return frame * stretches.asDiagonal() * frame.transpose();
+    };
+}
+
+}  // namespace windfall::drying

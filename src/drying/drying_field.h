@@ -1,0 +1,21 @@
+#pragma once
+// The drying part Fd of the deformation gradient for the parameters of a recipe.
+#include "drying/elasticity.h"
+#include "drying/parameters.h"
+
+namespace windfall::drying {
+
+/// Fd of every element at a shrinkage: stretches 1 - factor * shrinkage along the radial, meridional and
+/// latitudinal directions of the element; in the skin the factors are multiplied by skin_fraction.
+class RecipeDrying {
+  public:
+    RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkageParameters& parameters);
+    DryingField at(double shrinkage) const;
+
+  private:
+    ShrinkageParameters m_parameters;
+    int m_flesh_layers;
+    std::vector<Eigen::Matrix3d> m_frames;  ///< per quad: columns radial, meridional, latitudinal
+};
+
+}  // namespace windfall::drying

@@ -1,0 +1,205 @@
+#include "drying/drying_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace windfall::drying {
+
+namespace {
+
+using geometry::Vec3;
+
+// Step control, measured on the base case (docs/drying.md): fewer failures do not pay for smaller steps.
+constexpr double kSmallestStep = 1e-6;
+constexpr double kCutAfterFailure = 0.45;
+constexpr double kCutAfterSlow = 0.7;
+constexpr double kGrowthAfterFast = 1.3;
+constexpr double kGrowthAfterFastest = 2;
+constexpr int kFastestNewton = 2;
+constexpr int kFastNewton = 4;
+constexpr int kSlowNewton = 6;
+constexpr double kOnsetDepth = 0.1;  // of t_e
+
+double norm(const AlignedArray<double>& a) {
+    double sum = 0;
+    for (const double x : a) sum += x * x;
+    return std::sqrt(sum);
+}
+
+}  // namespace
+
+DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters)
+    : m_mesh(std::move(mesh)), m_parameters(parameters), m_drying(m_mesh, parameters.drying) {
+    m_multigrid = std::make_unique<Multigrid>(m_mesh.brick, m_mesh.layers, kernels(m_mesh.layers));
+    m_elasticity =
+        std::make_unique<Elasticity>(m_mesh,
+                                     layer_moduli(m_mesh.flesh_layers, m_mesh.layers,
+                                                  parameters.material.gamma, parameters.material.bulk_ratio),
+                                     *m_multigrid);
+    m_newton = std::make_unique<NewtonSolver>(*m_elasticity);
+    m_skin_rest = m_mesh.level_positions(m_mesh.layers);
+    m_skin_areas = geometry::vertex_areas(m_skin_rest, m_mesh.faces());
+    m_slow = std::make_unique<geometry::SlowField>(m_mesh.directions, m_skin_areas);
+    m_state.next_step = parameters.solver.max_step;
+    m_state.displacements.emplace_back(m_elasticity->size());
+
+    // The force that a first small shrinkage puts out of balance is dominated by volume change; over the bulk
+    // ratio it is of the size of the shear forces that shape the wrinkles.
+    constexpr double kReferenceShrinkage = 0.01;
+    AlignedArray<double> force(m_elasticity->size());
+    m_elasticity->set_drying(m_drying.at(kReferenceShrinkage));
+    m_elasticity->energy(m_state.displacements.front(), &force);
+    m_reference_force = norm(force) / parameters.material.bulk_ratio;
+}
+
+double DryingPath::onset() const {
+    const double threshold = kOnsetDepth * m_parameters.fruit.skin_thickness;
+    StepRecord before;
+    for (const StepRecord& record : m_state.history) {
+        if (record.depth_rms > threshold) {
+            const double fraction = (threshold - before.depth_rms) / (record.depth_rms - before.depth_rms);
+            return before.shrinkage + fraction * (record.shrinkage - before.shrinkage);
+        }
+        before = record;
+    }
+    return -1;
+}
+
+double DryingPath::viscosity() const {
+    // While wrinkles appear, damping delays them and shifts their length; once they stand it only saves
+    // Newton steps.
+    constexpr double kFrom = 1.3;
+    constexpr double kOver = 0.35;
+    const SolverParameters& solver = m_parameters.solver;
+    const double wrinkled_at = onset();
+    if (wrinkled_at < 0) return solver.viscosity;
+    const double progress = (m_state.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
+    return std::lerp(solver.viscosity, solver.late_viscosity, std::clamp(progress, 0.0, 1.0));
+}
+
+AlignedArray<double> DryingPath::predict(double step) const {
+    // Lagrange extrapolation through the last two or three equilibria.
+    const auto& u = m_state.displacements;
+    AlignedArray<double> result = u[0];
+    if (m_state.past_steps.empty()) return result;
+    const double h0 = m_state.past_steps[0];
+    if (m_state.past_steps.size() == 1) {
+        const double factor = step / h0;
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] += factor * (u[0][i] - u[1][i]);
+        return result;
+    }
+    const double h1 = m_state.past_steps[1];
+    const double c0 = (step + h0) * (step + h0 + h1) / (h0 * (h0 + h1));
+    const double c1 = -step * (step + h0 + h1) / (h0 * h1);
+    const double c2 = step * (step + h0) / ((h0 + h1) * h1);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = c0 * u[0][i] + c1 * u[1][i] + c2 * u[2][i];
+    return result;
+}
+
+bool DryingPath::attempt(double step, const RunContext& context, StepRecord& record) {
+    const AlignedArray<double>& start = m_state.displacements.front();
+    const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
+    m_elasticity->set_drying(m_drying.at(m_state.shrinkage + step));
+    AlignedArray<double> displacement = predict(step);
+    if (!(m_newton->potential(displacement, damping) < m_newton->potential(start, damping)))
+        displacement = start;
+
+    NewtonSettings settings;
+    settings.tolerance = m_parameters.solver.newton_tolerance;
+    settings.reference_force = m_reference_force;
+    settings.radius = m_parameters.fruit.skin_thickness;
+    const NewtonResult result = m_newton->minimize(displacement, damping, settings, context);
+    record.newton_steps += result.newton_steps;
+    record.linear_iterations += result.linear_iterations;
+    if (!result.converged) {
+        m_state.next_step = step * kCutAfterFailure;
+        ++record.failures;
+        return false;
+    }
+    record.shrinkage = m_state.shrinkage + step;
+    record.elastic_energy = result.elastic_energy;
+    record.smallest_volume_ratio = result.smallest_volume_ratio;
+    // The viscous force c M du/dt works over du: twice the damping's part of the potential.
+    record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
+                          2 * (result.potential - result.elastic_energy);
+    set_step_after(step, result);
+    m_state.shrinkage += step;
+    m_state.displacements.insert(m_state.displacements.begin(), std::move(displacement));
+    m_state.past_steps.insert(m_state.past_steps.begin(), step);
+    if (m_state.displacements.size() > 3) m_state.displacements.pop_back();
+    if (m_state.past_steps.size() > 2) m_state.past_steps.pop_back();
+    return true;
+}
+
+void DryingPath::set_step_after(double step, const NewtonResult& result) {
+    if (result.newton_steps <= kFastNewton && result.rejections == 0) {
+        // A step that was short only because a frame was due says nothing against the longer one.
+        const double growth = result.newton_steps <= kFastestNewton ? kGrowthAfterFastest : kGrowthAfterFast;
+        const bool cut_for_frame = step < m_state.next_step;
+        m_state.next_step = std::min(m_parameters.solver.max_step,
+                                     cut_for_frame ? m_state.next_step : growth * m_state.next_step);
+    } else if (result.newton_steps > kSlowNewton) {
+        m_state.next_step = step * kCutAfterSlow;
+    }
+}
+
+void DryingPath::advance(double target, const RunContext& context, const std::function<void()>& on_step) {
+    constexpr double kSame = 1e-9;
+    StepRecord record;
+    while (m_state.shrinkage < target - kSame) {
+        context.throw_if_cancelled();
+        const double left = target - m_state.shrinkage;
+        if (!attempt(std::min(m_state.next_step, left), context, record)) {
+            if (m_state.next_step < kSmallestStep)
+                throw RunError(fmt::format(
+                    "equilibrium was lost at shrinkage {:.4f}: no increment above {} converged. Try a larger "
+                    "solver.viscosity (now {}), a larger imperfection.amplitude (now {}), a finer mesh.n, or "
+                    "stop at "
+                    "drying.shrinkage = {:.2f}",
+                    m_state.shrinkage, kSmallestStep, m_parameters.solver.viscosity,
+                    m_parameters.imperfection.amplitude, std::floor(100 * m_state.shrinkage) / 100));
+            continue;
+        }
+        if (target - m_state.shrinkage < kSame) m_state.shrinkage = record.shrinkage = target;
+        record.depth_rms = root_mean_square_depth();
+        m_state.history.push_back(record);
+        record = StepRecord{};
+        if (on_step) on_step();
+    }
+}
+
+std::vector<Vec3> DryingPath::positions() const {
+    std::vector<Vec3> result = m_mesh.nodes;
+    const AlignedArray<double>& u = m_state.displacements.front();
+    const ColumnOrder& order = m_multigrid->order();
+    const auto layers = static_cast<std::size_t>(m_mesh.layers);
+    for (std::size_t c = 0; c < m_mesh.columns(); ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < layers; ++k)
+                result[order.vertex_of_solver[c] * layers + k][static_cast<int>(i)] +=
+                    u[(3 * c + i) * layers + k];
+    return result;
+}
+
+std::vector<double> DryingPath::skin_depth() const {
+    std::vector<Vec3> skin(m_mesh.columns());
+    const std::vector<Vec3> nodes = positions();
+    for (std::size_t c = 0; c < skin.size(); ++c) skin[c] = nodes[(c + 1) * m_mesh.layers - 1];
+    return geometry::depth_below_smooth_surface(*m_slow, m_skin_rest, skin, m_mesh.faces());
+}
+
+double DryingPath::root_mean_square_depth() const {
+    const std::vector<double> depth = skin_depth();
+    double sum = 0;
+    double area = 0;
+    for (std::size_t v = 0; v < depth.size(); ++v) {
+        sum += m_skin_areas[v] * depth[v] * depth[v];
+        area += m_skin_areas[v];
+    }
+    return std::sqrt(sum / area);
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,82 @@
+#pragma once
+// The equilibria of a body as its shrinkage grows: increments with predictor, trust region and step control.
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/run_context.h"
+#include "drying/drying_field.h"
+#include "drying/newton.h"
+#include "geometry/smooth_surface.h"
+
+namespace windfall::drying {
+
+/// What is kept of every accepted increment.
+struct StepRecord {
+    double shrinkage = 0;
+    double depth_rms = 0;       ///< root mean square of the skin's depth, in r_1
+    double elastic_energy = 0;  ///< in C0 of the flesh times r_1^3
+    double viscous_work = 0;    ///< done against the stabilisation since the start
+    double smallest_volume_ratio = 1;
+    int newton_steps = 0;  ///< with those of failed attempts before
+    int linear_iterations = 0;
+    int failures = 0;  ///< attempts that were given up before this one
+};
+
+/// Everything that the way ahead depends on; a checkpoint is this and nothing else.
+struct PathState {
+    double shrinkage = 0;
+    double next_step = 0;
+    std::vector<double> past_steps;  ///< sizes of the last increments, latest first; at most 2
+    std::vector<AlignedArray<double>> displacements;  ///< now, and after the increments before; at most 3
+    std::vector<StepRecord> history;
+};
+
+class DryingPath {
+  public:
+    /// `mesh` is the fresh body, imperfection included.
+    DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters);
+
+    /// Goes on to `target` exactly. Calls `on_step` after each increment. Throws RunError where equilibrium
+    /// is lost: the state is then that of the last equilibrium. Throws Cancelled likewise.
+    void advance(double target, const RunContext& context, const std::function<void()>& on_step = {});
+
+    const PathState& state() const { return m_state; }
+    void set_state(PathState state) { m_state = std::move(state); }
+
+    double shrinkage() const { return m_state.shrinkage; }
+    /// Shrinkage at which the skin's depth passed a tenth of its thickness; negative before that.
+    double onset() const;
+
+    const geometry::LayeredMesh& mesh() const { return m_mesh; }
+    Elasticity& elasticity() { return *m_elasticity; }
+    NewtonSolver& newton() { return *m_newton; }
+    const RecipeDrying& drying() const { return m_drying; }
+    double reference_force() const { return m_reference_force; }
+
+    /// Nodes now: [column * layers + k], in the brick's order.
+    std::vector<geometry::Vec3> positions() const;
+    /// Depth of the skin's vertices below the smooth surface, in the brick's order.
+    std::vector<double> skin_depth() const;
+
+  private:
+    bool attempt(double step, const RunContext& context, StepRecord& record);
+    void set_step_after(double step, const NewtonResult& result);
+    AlignedArray<double> predict(double step) const;
+    double viscosity() const;
+    double root_mean_square_depth() const;
+
+    geometry::LayeredMesh m_mesh;
+    DryingParameters m_parameters;
+    RecipeDrying m_drying;
+    std::unique_ptr<Multigrid> m_multigrid;
+    std::unique_ptr<Elasticity> m_elasticity;
+    std::unique_ptr<NewtonSolver> m_newton;
+    std::vector<geometry::Vec3> m_skin_rest;
+    std::vector<double> m_skin_areas;
+    std::unique_ptr<geometry::SlowField> m_slow;
+    double m_reference_force = 1;
+    PathState m_state;
+};
+
+}  // namespace windfall::drying

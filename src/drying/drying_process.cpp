@@ -1,0 +1,176 @@
+#include "drying/drying_process.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "drying/checkpoint.h"
+#include "drying/frame_maker.h"
+#include "drying/imperfection.h"
+#include "drying/specimen.h"
+
+namespace windfall::drying {
+
+namespace {
+
+constexpr double kSecondsBetweenCheckpoints = 20;
+
+std::int64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Seconds left from the speed over the last part of the way: drying is quick before the wrinkles come.
+class TimeLeft {
+  public:
+    double estimate(double done, double total, double now_s) {
+        constexpr double kWindow = 0.15;  // of the way
+        m_points.push_back({done, now_s});
+        while (m_points.size() > 2 && m_points[1].done < done - kWindow * total)
+            m_points.erase(m_points.begin());
+        const double way = done - m_points.front().done;
+        return way > 0 ? (total - done) * (now_s - m_points.front().at_s) / way : -1;
+    }
+
+  private:
+    struct Point {
+        double done, at_s;
+    };
+    std::vector<Point> m_points;
+};
+
+class Run {
+  public:
+    Run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
+        std::span<const std::byte> checkpoint)
+        : m_parameters(parameters),
+          m_sink(sink),
+          m_context(context),
+          m_frames(frame_shrinkages(parameters)),
+          m_path(fresh_mesh(), parameters) {
+        if (!checkpoint.empty()) {
+            Checkpoint saved = checkpoint_from(checkpoint, m_path.elasticity().size());
+            m_frames_done = saved.frames_done;
+            m_elapsed_before_s = saved.elapsed_s;
+            m_path.set_state(std::move(saved.path));
+        }
+    }
+
+    void go() {
+        if (m_frames_done == 0) m_sink.add_mesh(skin_mesh(m_path.mesh()));
+        try {
+            while (m_frames_done < static_cast<int>(m_frames.size())) {
+                m_path.advance(m_frames[m_frames_done], m_context, [this] { after_step(); });
+                m_sink.add_frame(make_frame(m_path, m_parameters, m_frames_done));
+                ++m_frames_done;
+                save();
+            }
+        } catch (const Cancelled&) {
+            save();
+            throw;
+        } catch (const RunError&) {
+            m_sink.set_summary(summary());
+            throw;
+        }
+    }
+
+  private:
+    geometry::LayeredMesh fresh_mesh() {
+        m_context.progress({"meshing", 0, m_parameters.drying.shrinkage, -1, ""});
+        check(m_parameters);
+        const auto shape = make_shape(m_parameters.fruit);
+        geometry::LayeredMesh mesh = make_mesh(m_parameters, *shape);
+        add_imperfection(mesh, m_parameters, m_context);
+        return mesh;
+    }
+
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+    }
+
+    void after_step() {
+        const StepRecord& step = m_path.state().history.back();
+        const double total = m_parameters.drying.shrinkage;
+        m_context.progress({"drying", step.shrinkage, total,
+                            m_time_left.estimate(step.shrinkage, total, seconds()),
+                            fmt::format("shrinkage {:.3f}, depth {:.2f} t_e", step.shrinkage,
+                                        step.depth_rms / m_parameters.fruit.skin_thickness)});
+        m_context.log(
+            fmt::format("shrinkage {:.5f} newton {} linear {} failed {} depth/t_e {:.4f} energy {:.6g} "
+                        "viscous/elastic {:.4f} J {:.3f}",
+                        step.shrinkage, step.newton_steps, step.linear_iterations, step.failures,
+                        step.depth_rms / m_parameters.fruit.skin_thickness, step.elastic_energy,
+                        step.viscous_work / step.elastic_energy, step.smallest_volume_ratio));
+        if (seconds() - m_last_checkpoint_s > kSecondsBetweenCheckpoints) save();
+    }
+
+    void save() {
+        m_last_checkpoint_s = seconds();
+        m_sink.set_summary(summary());
+        m_sink.save_checkpoint(to_bytes({m_path.state(), m_frames_done, m_elapsed_before_s + seconds()}));
+    }
+
+    nlohmann::json summary() {
+        const double thickness = m_parameters.fruit.skin_thickness;
+        nlohmann::json history;
+        int newton = 0;
+        int linear = 0;
+        int failures = 0;
+        for (const StepRecord& r : m_path.state().history) {
+            history["shrinkage"].push_back(r.shrinkage);
+            history["depth_rms_over_te"].push_back(r.depth_rms / thickness);
+            history["elastic_energy"].push_back(r.elastic_energy);
+            history["viscous_work"].push_back(r.viscous_work);
+            history["newton_steps"].push_back(r.newton_steps);
+            history["linear_iterations"].push_back(r.linear_iterations);
+            history["failures"].push_back(r.failures);
+            newton += r.newton_steps;
+            linear += r.linear_iterations;
+            failures += r.failures;
+        }
+        const PhaseTimes& times = m_path.newton().times();
+        nlohmann::json result = {
+            {"unknowns", m_path.elasticity().size()},
+            {"columns", m_path.mesh().columns()},
+            {"cells", m_path.mesh().brick.cells},
+            {"layers", m_path.mesh().layers},
+            {"steps", m_path.state().history.size()},
+            {"newton_steps", newton},
+            {"linear_iterations", linear},
+            {"failures", failures},
+            {"elapsed_s", m_elapsed_before_s + seconds()},
+            {"peak_memory_bytes", peak_memory_bytes()},
+            {"instruction_set", m_path.elasticity().multigrid().table().instruction_set},
+            {"seconds",
+             {{"assembly", times.assembly_s},
+              {"multigrid_setup", times.multigrid_setup_s},
+              {"linear_solver", times.linear_solver_s},
+              {"energy", times.energy_s}}},
+            {"history", history},
+        };
+        if (m_path.onset() >= 0) result["onset_shrinkage"] = m_path.onset();
+        return result;
+    }
+
+    DryingParameters m_parameters;
+    take::FrameSink& m_sink;
+    const RunContext& m_context;
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+    std::vector<double> m_frames;
+    DryingPath m_path;
+    int m_frames_done = 0;
+    double m_elapsed_before_s = 0;
+    double m_last_checkpoint_s = 0;
+    TimeLeft m_time_left;
+};
+
+}  // namespace
+
+void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
+         std::span<const std::byte> checkpoint) {
+    Run(parameters, sink, context, checkpoint).go();
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,127 @@
+#include "drying/elasticity.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "drying/element.h"
+
+namespace windfall::drying {
+
+LayerModuli layer_moduli(int flesh_layers, int layers, double gamma, double bulk_ratio) {
+    constexpr double kFleshShear = 2;  // mu = 2 C0, C0 of the flesh is the unit of stress
+    LayerModuli moduli;
+    for (int k = 0; k < layers; ++k) {
+        moduli.shear.push_back(kFleshShear * (k < flesh_layers ? 1 : gamma));
+        moduli.bulk.push_back(bulk_ratio * moduli.shear.back());
+    }
+    return moduli;
+}
+
+Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid)
+    : m_multigrid(multigrid),
+      m_rest(multigrid.vector_size()),
+      m_base(mesh.columns() * 3),
+      m_shear(moduli.shear.size()),
+      m_bulk(moduli.bulk.size()),
+      m_dehydration(mesh.brick.quads.size() * 7 * mesh.layers),
+      m_mass(mesh.columns() * mesh.layers),
+      m_mean_weights(mesh.columns() * mesh.layers) {
+    const ColumnOrder& order = multigrid.order();
+    const auto layers = static_cast<std::size_t>(mesh.layers);
+    std::copy(moduli.shear.begin(), moduli.shear.end(), m_shear.begin());
+    std::copy(moduli.bulk.begin(), moduli.bulk.end(), m_bulk.begin());
+    for (std::size_t c = 0; c < mesh.columns(); ++c) {
+        const std::int32_t vertex = order.vertex_of_solver[c];
+        for (std::size_t i = 0; i < 3; ++i) {
+            m_base[3 * c + i] = mesh.base[vertex][static_cast<int>(i)];
+            for (std::size_t k = 0; k < layers; ++k)
+                m_rest[(3 * c + i) * layers + k] = mesh.nodes[vertex * layers + k][static_cast<int>(i)];
+        }
+    }
+    double total = 0;
+    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q) {
+        for (int k = 0; k < mesh.layers; ++k) {
+            const double share = hexahedron_volume(element_nodes(mesh, q, k)) / 8;
+            for (const std::int32_t vertex : mesh.brick.quads[q]) {
+                double* mass = m_mass.data() + order.solver_of_vertex[vertex] * layers;
+                mass[k] += share;
+                if (k > 0) mass[k - 1] += share;
+                total += share * (k > 0 ? 2 : 1);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < m_mass.size(); ++i) m_mean_weights[i] = static_cast<float>(m_mass[i] / total);
+    set_drying([](std::size_t, int) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); });
+}
+
+void Elasticity::set_drying(const DryingField& field) {
+    const ColumnOrder& order = m_multigrid.order();
+    const auto layers = static_cast<std::size_t>(m_multigrid.layers());
+    constexpr std::size_t kBlock = 256;
+    parallel_blocks(order.quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t q = begin; q < end; ++q) {
+            double* out = m_dehydration.data() + q * 7 * layers;
+            for (std::size_t k = 0; k < layers; ++k) {
+                const Eigen::Matrix3d drying = field(order.brick_quad[q], static_cast<int>(k));
+                const Eigen::Matrix3d inverse = drying.inverse();
+                const Eigen::Matrix3d inv_cd = inverse * inverse.transpose();
+                const double values[7] = {drying.determinant(), inv_cd(0, 0), inv_cd(0, 1), inv_cd(0, 2),
+                                          inv_cd(1, 1),         inv_cd(1, 2), inv_cd(2, 2)};
+                for (std::size_t i = 0; i < 7; ++i) out[i * layers + k] = values[i];
+            }
+        }
+    });
+}
+
+ElementArrays Elasticity::arrays() const {
+    return {reinterpret_cast<const std::int32_t(*)[4]>(m_multigrid.order().quads.data()),
+            m_rest.data(),
+            m_base.data(),
+            m_shear.data(),
+            m_bulk.data(),
+            m_dehydration.data()};
+}
+
+ElasticEnergy Elasticity::energy(const AlignedArray<double>& displacement,
+                                 AlignedArray<double>* force) const {
+    const ElementArrays elements = arrays();
+    double* out = nullptr;
+    if (force != nullptr) {
+        force->set_zero();
+        out = force->data();
+    }
+    ElasticEnergy result;
+    result.smallest_volume_ratio = std::numeric_limits<double>::infinity();
+    std::vector<EnergySums> sums;
+    for (const auto& ranges : m_multigrid.order().quad_ranges) {
+        sums.resize(ranges.size());
+        for_ranges(ranges, [&](std::size_t i) {
+            sums[i] = m_multigrid.table().energy(elements, displacement.data(), out, ranges[i]);
+        });
+        for (const EnergySums& sum : sums) {
+            result.energy += sum.energy;
+            result.smallest_volume_ratio = std::min(result.smallest_volume_ratio, sum.smallest_volume_ratio);
+        }
+    }
+    return result;
+}
+
+void Elasticity::assemble(const AlignedArray<double>& displacement, double geometric, double mass_factor) {
+    const ElementArrays elements = arrays();
+    m_multigrid.set_matrix_zero();
+    const MatrixArrays matrix = m_multigrid.matrix();
+    const ColumnOrder& order = m_multigrid.order();
+    const auto* pair_entry = reinterpret_cast<const std::int32_t(*)[6]>(order.pair_entry.data());
+    for_schedule(order.quad_ranges, [&](Range range) {
+        m_multigrid.table().assemble(elements, displacement.data(), pair_entry, {geometric}, matrix, range);
+    });
+    if (mass_factor == 0) return;
+    const auto layers = static_cast<std::size_t>(m_multigrid.layers());
+    for (std::int32_t c = 0; c < order.column_count(); ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < layers; ++k)
+                matrix.diagonal[(static_cast<std::size_t>(c) * 18 + 9 + 4 * i) * layers + k] +=
+                    static_cast<float>(mass_factor * m_mass[c * layers + k]);
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,121 @@
+#include "drying/frame_maker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drying/element.h"
+
+namespace windfall::drying {
+
+using geometry::LayeredMesh;
+using geometry::Vec3;
+
+namespace {
+
+/// What is summed over all elements, and what the outermost ones leave on the skin's vertices.
+struct SolidSums {
+    double flesh_fresh = 0, flesh_now = 0;
+    double skin_fresh = 0, skin_now = 0;
+    double smallest_total = 1e30;
+    double smallest_elastic = 1e30, largest_elastic = -1e30;
+    double elastic_volume = 0, dried_volume = 0;
+    std::vector<double> volume_ratio, pressure;  ///< per vertex of the skin
+};
+
+SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
+                       const std::vector<Vec3>& nodes) {
+    const LayeredMesh& mesh = path.mesh();
+    const DryingField drying = path.drying().at(path.shrinkage());
+    const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
+                                            parameters.material.bulk_ratio);
+    SolidSums sums;
+    sums.volume_ratio.assign(mesh.columns(), 0);
+    sums.pressure.assign(mesh.columns(), 0);
+    std::vector<int> adjacent(mesh.columns(), 0);
+    LayeredMesh now = mesh;
+    now.nodes = nodes;
+    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q) {
+        for (int k = 0; k < mesh.layers; ++k) {
+            const HexMaterial material{moduli.shear[k], moduli.bulk[k], drying(q, k)};
+            const HexState state =
+                hexahedron_state(element_nodes(mesh, q, k), element_nodes(now, q, k), material);
+            (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += state.rest_volume;
+            (k < mesh.flesh_layers ? sums.flesh_now : sums.skin_now) += state.volume;
+            sums.dried_volume += state.rest_volume * state.drying_volume_ratio;
+            sums.smallest_total =
+                std::min(sums.smallest_total, state.smallest_elastic * state.drying_volume_ratio);
+            sums.smallest_elastic = std::min(sums.smallest_elastic, state.smallest_elastic);
+            sums.largest_elastic = std::max(sums.largest_elastic, state.largest_elastic);
+            if (k + 1 < mesh.layers) continue;
+            for (const std::int32_t vertex : mesh.brick.quads[q]) {
+                sums.volume_ratio[vertex] += state.elastic_volume_ratio;
+                sums.pressure[vertex] += state.pressure;
+                ++adjacent[vertex];
+            }
+        }
+    }
+    for (std::size_t v = 0; v < adjacent.size(); ++v) {
+        sums.volume_ratio[v] /= adjacent[v];
+        sums.pressure[v] /= adjacent[v];
+    }
+    return sums;
+}
+
+std::vector<float> to_floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+}  // namespace
+
+take::TakeMesh skin_mesh(const LayeredMesh& mesh) {
+    take::TakeMesh result;
+    result.name = kSkinMesh;
+    result.rest.positions = mesh.level_positions(mesh.layers);
+    result.rest.faces = mesh.faces();
+    result.rest.corner_uvs = geometry::brick_atlas(mesh.brick);
+    return result;
+}
+
+take::Frame make_frame(const DryingPath& path, const DryingParameters& parameters, int index) {
+    const LayeredMesh& mesh = path.mesh();
+    const std::vector<Vec3> nodes = path.positions();
+    const SolidSums sums = sum_elements(path, parameters, nodes);
+    const std::vector<Vec3> rest = mesh.level_positions(mesh.layers);
+    std::vector<Vec3> skin(mesh.columns());
+    for (std::size_t c = 0; c < skin.size(); ++c) skin[c] = nodes[(c + 1) * mesh.layers - 1];
+    const auto faces = mesh.faces();
+    const std::vector<double> fresh_areas = geometry::vertex_areas(rest, faces);
+    const std::vector<double> areas = geometry::vertex_areas(skin, faces);
+    std::vector<double> stretch(areas.size());
+    for (std::size_t v = 0; v < areas.size(); ++v) stretch[v] = std::sqrt(areas[v] / fresh_areas[v]);
+
+    take::Frame frame;
+    frame.index = index;
+    frame.time = path.shrinkage() / parameters.drying.shrinkage;
+    take::FrameMesh surface;
+    surface.name = kSkinMesh;
+    for (const Vec3& position : skin) surface.positions.emplace_back(position.cast<float>());
+    surface.attributes.push_back({"depth", 1, to_floats(path.skin_depth())});
+    surface.attributes.push_back({"stretch", 1, to_floats(stretch)});
+    surface.attributes.push_back({"J", 1, to_floats(sums.volume_ratio)});
+    surface.attributes.push_back({"pressure", 1, to_floats(sums.pressure)});
+    frame.meshes.push_back(std::move(surface));
+
+    const StepRecord last = path.state().history.empty() ? StepRecord{} : path.state().history.back();
+    frame.scalars = {
+        {"shrinkage", path.shrinkage()},
+        {"flesh_volume_ratio", sums.flesh_now / sums.flesh_fresh},
+        {"skin_volume_ratio", sums.skin_now / sums.skin_fresh},
+        {"total_volume_ratio",
+         geometry::enclosed_volume(skin, faces) / geometry::enclosed_volume(rest, faces)},
+        {"J_total_min", sums.smallest_total},
+        {"J_elastic_min", sums.smallest_elastic},
+        {"J_elastic_max", sums.largest_elastic},
+        {"J_elastic_mean", (sums.flesh_now + sums.skin_now) / sums.dried_volume},
+        {"J_drying_mean", sums.dried_volume / (sums.flesh_fresh + sums.skin_fresh)},
+        {"elastic_energy", last.elastic_energy},
+        {"viscous_work", last.viscous_work},
+        {"viscous_over_elastic", last.elastic_energy > 0 ? last.viscous_work / last.elastic_energy : 0},
+    };
+    return frame;
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,300 @@
+// Products, smoothing and transfer over columns. Included inside the namespace of one instruction set (see
+// lanes.h).
+
+/// r -= block * x, for a block of 27 vectors given by `at(i)`.
+template <class V, class Block>
+inline void subtract_block(Block at, const V* x, V r[3]) {
+    const V same[3] = {x[0], x[1], x[2]};
+    const V below[3] = {shift_up(same[0]), shift_up(same[1]), shift_up(same[2])};
+    const V above[3] = {shift_down(same[0]), shift_down(same[1]), shift_down(same[2])};
+    for (int i = 0; i < 3; ++i) {
+        r[i] -= at(3 * i) * below[0] + at(3 * i + 1) * below[1] + at(3 * i + 2) * below[2] +
+                at(9 + 3 * i) * same[0] + at(10 + 3 * i) * same[1] + at(11 + 3 * i) * same[2] +
+                at(18 + 3 * i) * above[0] + at(19 + 3 * i) * above[1] + at(20 + 3 * i) * above[2];
+    }
+}
+
+/// y -= block^T * x
+template <class V, class Block>
+inline void subtract_transposed_block(Block at, const V x[3], V* y) {
+    for (int j = 0; j < 3; ++j) {
+        const V below = at(j) * x[0] + at(3 + j) * x[1] + at(6 + j) * x[2];
+        const V same = at(9 + j) * x[0] + at(12 + j) * x[1] + at(15 + j) * x[2];
+        const V above = at(18 + j) * x[0] + at(21 + j) * x[1] + at(24 + j) * x[2];
+        y[j] -= same + shift_down(below) + shift_up(above);
+    }
+}
+
+template <int L>
+void product(const MatrixArrays& m, const float* x, float* y, Range columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = columns.begin; v < columns.end; ++v) {
+        const F* xv = reinterpret_cast<const F*>(x + 3 * v * L);
+        const F minus[3] = {-xv[0], -xv[1], -xv[2]};
+        const F* d = reinterpret_cast<const F*>(m.diagonal + v * 18 * L);
+        F sum[3];
+        for (int i = 0; i < 3; ++i) {
+            const F from_above = d[i] * xv[0] + d[3 + i] * xv[1] + d[6 + i] * xv[2];
+            sum[i] = d[9 + 3 * i] * xv[0] + d[10 + 3 * i] * xv[1] + d[11 + 3 * i] * xv[2] +
+                     shift_down(from_above) + d[3 * i] * shift_up(xv[0]) + d[3 * i + 1] * shift_up(xv[1]) +
+                     d[3 * i + 2] * shift_up(xv[2]);
+        }
+        F negative[3] = {-sum[0], -sum[1], -sum[2]};
+        for (std::int64_t e = m.lower_begin[v]; e < m.lower_begin[v + 1]; ++e) {
+            const F* block = reinterpret_cast<const F*>(m.lower + e * 27 * L);
+            const auto at = [block](int i) { return block[i]; };
+            const std::int64_t w = m.lower_column[e];
+            subtract_block(at, reinterpret_cast<const F*>(x + 3 * w * L), negative);
+            subtract_transposed_block(at, minus, reinterpret_cast<F*>(y + 3 * w * L));
+        }
+        F* yv = reinterpret_cast<F*>(y + 3 * v * L);
+        for (int i = 0; i < 3; ++i) yv[i] = -negative[i];
+    }
+}
+
+/// Sixteen columns at a time, one in each lane: Gauss-Jordan without pivoting, which a definite matrix does
+/// not need.
+template <int L>
+bool invert_diagonal(const MatrixArrays& m, float* inverse, Range columns) {
+    using Batch = LaneTypes<16>::F;
+    constexpr int kSize = 3 * L;
+    constexpr int kBatch = 16;
+    alignas(64) static thread_local float storage[kSize * kSize * kBatch];
+    Batch* a = reinterpret_cast<Batch*>(storage);
+    const Batch zero = {};
+    for (std::int64_t first = columns.begin; first < columns.end; first += kBatch) {
+        for (int i = 0; i < kSize * kSize; ++i) a[i] = zero;
+        for (int q = 0; q < kBatch; ++q) {
+            const std::int64_t v = first + q < columns.end ? first + q : columns.end - 1;
+            const float* d = m.diagonal + v * 18 * L;
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                    for (int k = 0; k < L; ++k) {
+                        a[(3 * k + i) * kSize + 3 * k + j][q] = d[(9 + 3 * i + j) * L + k];
+                        if (k == 0) continue;
+                        const float coupling = d[(3 * i + j) * L + k];
+                        a[(3 * k + i) * kSize + 3 * (k - 1) + j][q] = coupling;
+                        a[(3 * (k - 1) + j) * kSize + 3 * k + i][q] = coupling;
+                    }
+        }
+        for (int p = 0; p < kSize; ++p) {
+            const Batch pivot = a[p * kSize + p];
+            for (int q = 0; q < kBatch; ++q)
+                if (!(pivot[q] > 0)) return false;
+            const Batch reciprocal = 1.0F / pivot;
+            a[p * kSize + p] = zero + 1.0F;
+            for (int j = 0; j < kSize; ++j) a[p * kSize + j] *= reciprocal;
+            for (int i = 0; i < kSize; ++i) {
+                if (i == p) continue;
+                const Batch factor = a[i * kSize + p];
+                a[i * kSize + p] = zero;
+                for (int j = 0; j < kSize; ++j) a[i * kSize + j] -= factor * a[p * kSize + j];
+            }
+        }
+        for (int q = 0; q < kBatch && first + q < columns.end; ++q) {
+            float* out = inverse + (first + q) * 9 * L * L;
+            // Row (k, i), column (l, j) goes to [j * L + l][i][k]; the mean of both triangles keeps it
+            // symmetric.
+            for (int j = 0; j < 3; ++j)
+                for (int l = 0; l < L; ++l)
+                    for (int i = 0; i < 3; ++i)
+                        for (int k = 0; k < L; ++k)
+                            out[((j * L + l) * 3 + i) * L + k] =
+                                0.5F * (a[(3 * k + i) * kSize + 3 * l + j][q] +
+                                        a[(3 * l + j) * kSize + 3 * k + i][q]);
+        }
+    }
+    return true;
+}
+
+/// Offset of a column's inverse in SmootherArrays::packed; its lower blocks follow 9 L vectors later.
+template <int L>
+inline std::int64_t packed_offset(const MatrixArrays& m, std::int64_t column) {
+    return (9 * L * column + 27 * static_cast<std::int64_t>(m.lower_begin[column])) * L;
+}
+
+template <int L>
+void pack(const MatrixArrays& m, const float* inverse, SmootherArrays s, Range columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = columns.begin; v < columns.end; ++v) {
+        std::uint16_t* out = s.packed + packed_offset<L>(m, v);
+        const F* in = reinterpret_cast<const F*>(inverse + v * 9 * L * L);
+        for (int i = 0; i < 9 * L; ++i, out += L) store_half<L>(out, in[i] * s.inverse_scale);
+        const F* lower =
+            reinterpret_cast<const F*>(m.lower + static_cast<std::int64_t>(m.lower_begin[v]) * 27 * L);
+        const int count = 27 * (m.lower_begin[v + 1] - m.lower_begin[v]);
+        for (int i = 0; i < count; ++i, out += L) store_half<L>(out, lower[i] * s.matrix_scale);
+    }
+}
+
+/// x = inverse * r * scale
+template <int L>
+inline void apply_inverse(const std::uint16_t* inverse, float scale, const typename LaneTypes<L>::F r[3],
+                          typename LaneTypes<L>::F x[3]) {
+    using F = typename LaneTypes<L>::F;
+    const float* unknowns = reinterpret_cast<const float*>(r);
+    // Four running sums per component: one alone would wait for each addition to finish.
+    constexpr int kSums = 4;
+    F sum[kSums][3];
+    for (int q = 0; q < kSums; ++q)
+        for (int i = 0; i < 3; ++i) sum[q][i] = load_half<L>(inverse + (q * 3 + i) * L) * unknowns[q];
+    for (int c = kSums; c < 3 * L; c += kSums)
+        for (int q = 0; q < kSums; ++q)
+            for (int i = 0; i < 3; ++i)
+                sum[q][i] += load_half<L>(inverse + ((c + q) * 3 + i) * L) * unknowns[c + q];
+    for (int i = 0; i < 3; ++i) x[i] = ((sum[0][i] + sum[1][i]) + (sum[2][i] + sum[3][i])) * scale;
+}
+
+/// One column of a Gauss-Seidel sweep: solves its block for the right-hand side r (times matrix_scale) less
+/// the lower blocks, stores x, and takes what x adds to the rows of the lower columns off `residual`.
+template <int L>
+inline void sweep_column(const MatrixArrays& m, const SmootherArrays& s, std::int64_t v,
+                         typename LaneTypes<L>::F r[3], float* x, float* residual) {
+    using F = typename LaneTypes<L>::F;
+    const std::uint16_t* inverse = s.packed + packed_offset<L>(m, v);
+    const std::uint16_t* blocks = inverse + 9 * L * L;
+    const int begin = m.lower_begin[v];
+    const int end = m.lower_begin[v + 1];
+    for (int e = begin; e < end; ++e) {
+        const std::uint16_t* block = blocks + (e - begin) * 27 * L;
+        subtract_block([block](int i) { return load_half<L>(block + i * L); },
+                       reinterpret_cast<const F*>(x + 3 * static_cast<std::int64_t>(m.lower_column[e]) * L),
+                       r);
+    }
+    F solved[3];
+    apply_inverse<L>(inverse, 1.0F / (s.inverse_scale * s.matrix_scale), r, solved);
+    F* xv = reinterpret_cast<F*>(x + 3 * v * L);
+    for (int i = 0; i < 3; ++i) xv[i] = solved[i];
+    for (int e = begin; e < end; ++e) {
+        const std::uint16_t* block = blocks + (e - begin) * 27 * L;
+        subtract_transposed_block(
+            [block](int i) { return load_half<L>(block + i * L); }, solved,
+            reinterpret_cast<F*>(residual + 3 * static_cast<std::int64_t>(m.lower_column[e]) * L));
+    }
+}
+
+template <int L>
+void sweep_forward(const MatrixArrays& m, const SmootherArrays& s, const float* b, float* x, float* residual,
+                   Range columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = columns.begin; v < columns.end; ++v) {
+        const F* bv = reinterpret_cast<const F*>(b + 3 * v * L);
+        F* own = reinterpret_cast<F*>(residual + 3 * v * L);
+        F r[3];
+        for (int i = 0; i < 3; ++i) {
+            r[i] = bv[i] * s.matrix_scale;
+            own[i] = r[i] - r[i];
+        }
+        sweep_column<L>(m, s, v, r, x, residual);
+    }
+}
+
+template <int L>
+void sweep_backward(const MatrixArrays& m, const SmootherArrays& s, const float* b, float* x, float* residual,
+                    Range columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = static_cast<std::int64_t>(columns.end) - 1; v >= columns.begin; --v) {
+        const F* bv = reinterpret_cast<const F*>(b + 3 * v * L);
+        const F* own = reinterpret_cast<const F*>(residual + 3 * v * L);
+        F r[3];
+        for (int i = 0; i < 3; ++i) r[i] = bv[i] * s.matrix_scale + own[i];
+        sweep_column<L>(m, s, v, r, x, residual);
+    }
+}
+
+template <int L>
+void restrict_residual(const TransferArrays& t, float inverse_matrix_scale, const float* residual,
+                       float* coarse_b, Range coarse_columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = coarse_columns.begin; v < coarse_columns.end; ++v) {
+        F sum[3] = {};
+        for (int c = t.child_begin[v]; c < t.child_begin[v + 1]; ++c) {
+            const float weight = t.child_weight[c] * inverse_matrix_scale;
+            const F* r =
+                reinterpret_cast<const F*>(residual + 3 * static_cast<std::int64_t>(t.child_column[c]) * L);
+            for (int i = 0; i < 3; ++i) sum[i] += weight * r[i];
+        }
+        F* out = reinterpret_cast<F*>(coarse_b + 3 * v * L);
+        for (int i = 0; i < 3; ++i) out[i] = sum[i];
+    }
+}
+
+template <int L>
+void prolong(const TransferArrays& t, const float* coarse_x, float* x, float* residual, Range columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = columns.begin; v < columns.end; ++v) {
+        F* xv = reinterpret_cast<F*>(x + 3 * v * L);
+        F* rv = reinterpret_cast<F*>(residual + 3 * v * L);
+        const float weight = 1.0F / static_cast<float>(t.parent_count[v]);
+        for (int i = 0; i < 3; ++i) {
+            F sum = {};
+            for (int p = 0; p < t.parent_count[v]; ++p)
+                sum += reinterpret_cast<const F*>(coarse_x +
+                                                  3 * static_cast<std::int64_t>(t.parent[v][p]) * L)[i];
+            xv[i] += weight * sum;
+            rv[i] = sum - sum;
+        }
+    }
+}
+
+/// Entry of column `other` in the lower row of `column`.
+inline int lower_entry(const MatrixArrays& m, int column, int other) {
+    int e = m.lower_begin[column];
+    while (m.lower_column[e] != other) ++e;
+    return e;
+}
+
+template <int L>
+void galerkin(const MatrixArrays& fine, const UpperArrays& upper, const TransferArrays& t,
+              MatrixArrays coarse, Range coarse_columns) {
+    using F = typename LaneTypes<L>::F;
+    for (std::int64_t v = coarse_columns.begin; v < coarse_columns.end; ++v) {
+        F* diagonal = reinterpret_cast<F*>(coarse.diagonal + v * 18 * L);
+        for (int i = 0; i < 18; ++i) diagonal[i] = F{};
+        F* row =
+            reinterpret_cast<F*>(coarse.lower + static_cast<std::int64_t>(coarse.lower_begin[v]) * 27 * L);
+        const int entries = coarse.lower_begin[v + 1] - coarse.lower_begin[v];
+        for (int i = 0; i < 27 * entries; ++i) row[i] = F{};
+
+        // Adds `weight` times a block of the fine row, with as many vectors as the target keeps.
+        const auto add = [&](const F* block, int fine_column, float child_weight) {
+            const float weight = child_weight / static_cast<float>(t.parent_count[fine_column]);
+            for (int p = 0; p < t.parent_count[fine_column]; ++p) {
+                const int target = t.parent[fine_column][p];
+                if (target > v) continue;
+                const bool own = target == v;
+                F* out =
+                    own ? diagonal
+                        : row + static_cast<std::int64_t>(lower_entry(coarse, static_cast<int>(v), target) -
+                                                          coarse.lower_begin[v]) *
+                                    27;
+                const int count = own ? 18 : 27;
+                for (int i = 0; i < count; ++i) out[i] += weight * block[i];
+            }
+        };
+        for (int c = t.child_begin[v]; c < t.child_begin[v + 1]; ++c) {
+            const std::int64_t child = t.child_column[c];
+            const float weight = t.child_weight[c];
+            F block[27];
+            const F* d = reinterpret_cast<const F*>(fine.diagonal + child * 18 * L);
+            for (int i = 0; i < 18; ++i) block[i] = d[i];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) block[18 + 3 * i + j] = shift_down(d[3 * j + i]);
+            add(block, static_cast<int>(child), weight);
+            for (int e = fine.lower_begin[child]; e < fine.lower_begin[child + 1]; ++e)
+                add(reinterpret_cast<const F*>(fine.lower + static_cast<std::int64_t>(e) * 27 * L),
+                    fine.lower_column[e], weight);
+            for (int u = upper.upper_begin[child]; u < upper.upper_begin[child + 1]; ++u) {
+                const F* stored = reinterpret_cast<const F*>(
+                    fine.lower + static_cast<std::int64_t>(upper.upper_entry[u]) * 27 * L);
+                for (int i = 0; i < 3; ++i)
+                    for (int j = 0; j < 3; ++j) {
+                        block[3 * i + j] = shift_up(stored[18 + 3 * j + i]);
+                        block[9 + 3 * i + j] = stored[9 + 3 * j + i];
+                        block[18 + 3 * i + j] = shift_down(stored[3 * j + i]);
+                    }
+                add(block, upper.upper_column[u], weight);
+            }
+        }
+    }
+}

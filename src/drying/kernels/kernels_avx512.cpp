@@ -1,0 +1,20 @@
+// The kernels built for AVX-512. No header with inline functions of the standard library may be included
+// here: the linker could keep this build's copy for the whole program.
+#include <immintrin.h>
+
+#include "drying/kernels/kernels.h"
+
+namespace windfall::drying::avx512 {
+
+// The order is that of dependence.
+// clang-format off
+#include "drying/kernels/lanes.h"
+#include "drying/kernels/element_kernels.h"
+#include "drying/kernels/column_kernels.h"
+#include "drying/kernels/table.h"
+// clang-format on
+
+extern const KernelTable kTable8 = make_table<8>("AVX-512");
+extern const KernelTable kTable16 = make_table<16>("AVX-512");
+
+}  // namespace windfall::drying::avx512

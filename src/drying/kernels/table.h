@@ -1,0 +1,8 @@
+// The table of one instruction set. Included last inside its namespace (see lanes.h).
+
+template <int L>
+constexpr KernelTable make_table(const char* instruction_set) {
+    return {instruction_set,      energy<L>,  assemble<L>,      product<L>,
+            invert_diagonal<L>,   pack<L>,    sweep_forward<L>, sweep_backward<L>,
+            restrict_residual<L>, prolong<L>, galerkin<L>};
+}

@@ -1,0 +1,224 @@
+#include "drying/multigrid.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace windfall::drying {
+
+namespace {
+
+constexpr std::size_t kBlockColumns = 256;
+constexpr int kCoarsestSweeps = 3;
+
+/// Largest magnitude in [begin, end).
+float largest_magnitude(const float* begin, const float* end) {
+    float largest = 0;
+    for (const float* p = begin; p != end; ++p) largest = std::max(largest, std::abs(*p));
+    return largest;
+}
+
+float largest_magnitude(const AlignedArray<float>& values, std::size_t size) {
+    constexpr std::size_t kBlock = std::size_t{1} << 18U;
+    std::vector<float> partial((size + kBlock - 1) / kBlock);
+    parallel_for_each(partial.size(), [&](std::size_t i) {
+        partial[i] =
+            largest_magnitude(values.data() + i * kBlock, values.data() + std::min(size, (i + 1) * kBlock));
+    });
+    return partial.empty() ? 0 : *std::max_element(partial.begin(), partial.end());
+}
+
+/// A power of two that takes `largest` to at most 8192: far from half precision's 65504, with room for sums.
+float half_precision_scale(float largest) {
+    if (!(largest > 0) || !std::isfinite(largest)) return 1;
+    return std::exp2(std::floor(std::log2(8192.0F / largest)));
+}
+
+Range range_of(std::size_t begin, std::size_t end) {
+    return {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)};
+}
+
+}  // namespace
+
+struct Multigrid::Level {
+    geometry::BrickSurface brick;
+    ColumnOrder order;
+    AlignedArray<float> diagonal, lower;
+    AlignedArray<std::uint16_t> packed;
+    float matrix_scale = 1;
+    float inverse_scale = 1;
+    AlignedArray<float> b, x, residual;      ///< b, x: below the finest level only
+    AlignedArray<float> defect, correction;  ///< coarsest level only
+
+    // To the next coarser level; empty on the coarsest.
+    std::vector<std::int32_t> child_begin, child_column, parent_count;
+    std::vector<float> child_weight;
+    std::vector<std::array<std::int32_t, 4>> parent;
+
+    Level(geometry::BrickSurface surface, int layers, bool finest)
+        : brick(std::move(surface)),
+          order(make_column_order(brick)),
+          diagonal(columns() * 18 * layers),
+          lower(order.lower_column.size() * 27 * layers),
+          packed((columns() * 9 * layers + order.lower_column.size() * 27) * layers),
+          residual(columns() * 3 * layers) {
+        if (finest) return;
+        b = AlignedArray<float>(columns() * 3 * layers);
+        x = AlignedArray<float>(columns() * 3 * layers);
+    }
+
+    std::size_t columns() const { return order.vertex_of_solver.size(); }
+    MatrixArrays matrix() const {
+        // The kernels' views are not const; the matrix is only written through views of a level that is not.
+        return {order.lower_begin.data(), order.lower_column.data(), const_cast<float*>(diagonal.data()),
+                const_cast<float*>(lower.data())};
+    }
+    UpperArrays upper() const {
+        return {order.upper_begin.data(), order.upper_column.data(), order.upper_entry.data()};
+    }
+    SmootherArrays smoother() { return {packed.data(), matrix_scale, inverse_scale}; }
+    TransferArrays transfer() const {
+        return {child_begin.data(), child_column.data(), child_weight.data(),
+                reinterpret_cast<const std::int32_t(*)[4]>(parent.data()), parent_count.data()};
+    }
+
+    void connect(const Level& coarse) {
+        const auto parents = geometry::brick_parents(brick, coarse.brick);
+        parent.resize(columns());
+        parent_count.resize(columns());
+        std::vector<std::vector<std::pair<std::int32_t, float>>> children(coarse.columns());
+        for (std::size_t v = 0; v < columns(); ++v) {
+            const auto& own = parents[order.vertex_of_solver[v]];
+            parent_count[v] = own.count;
+            for (int p = 0; p < own.count; ++p) {
+                parent[v][p] = coarse.order.solver_of_vertex[own.vertex[p]];
+                children[parent[v][p]].emplace_back(static_cast<std::int32_t>(v),
+                                                    1.0F / static_cast<float>(own.count));
+            }
+        }
+        child_begin.assign(1, 0);
+        for (const auto& list : children) {
+            for (const auto& [column, weight] : list) {
+                child_column.push_back(column);
+                child_weight.push_back(weight);
+            }
+            child_begin.push_back(static_cast<std::int32_t>(child_column.size()));
+        }
+    }
+};
+
+Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table)
+    : m_layers(layers), m_table(table) {
+    m_levels.push_back(std::make_unique<Level>(brick, layers, true));
+    while (geometry::can_coarsen(m_levels.back()->brick.cells)) {
+        m_levels.push_back(std::make_unique<Level>(
+            geometry::make_brick_surface(geometry::coarser(m_levels.back()->brick.cells)), layers, false));
+        m_levels[m_levels.size() - 2]->connect(*m_levels.back());
+    }
+    Level& coarsest = *m_levels.back();
+    coarsest.defect = AlignedArray<float>(coarsest.columns() * 3 * layers);
+    coarsest.correction = AlignedArray<float>(coarsest.columns() * 3 * layers);
+    m_inverse = AlignedArray<float>(m_levels.front()->columns() * 9 * layers * layers);
+}
+
+Multigrid::~Multigrid() = default;
+
+const ColumnOrder& Multigrid::order() const { return m_levels.front()->order; }
+
+MatrixArrays Multigrid::matrix() { return m_levels.front()->matrix(); }
+
+void Multigrid::set_matrix_zero() {
+    Level& fine = *m_levels.front();
+    constexpr std::size_t kBlock = std::size_t{1} << 18U;
+    for (AlignedArray<float>* array : {&fine.diagonal, &fine.lower})
+        parallel_blocks(array->size(), kBlock, [array](std::size_t begin, std::size_t end) {
+            std::fill(array->data() + begin, array->data() + end, 0.0F);
+        });
+}
+
+bool Multigrid::set_up_smoother(Level& level) {
+    const MatrixArrays matrix = level.matrix();
+    std::atomic<bool> definite{true};
+    parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
+        if (!m_table.invert_diagonal(matrix, m_inverse.data(), range_of(begin, end))) definite = false;
+    });
+    if (!definite) return false;
+    level.matrix_scale = half_precision_scale(largest_magnitude(level.lower, level.lower.size()));
+    level.inverse_scale =
+        half_precision_scale(largest_magnitude(m_inverse, level.columns() * 9 * m_layers * m_layers));
+    parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
+        m_table.pack(matrix, m_inverse.data(), level.smoother(), range_of(begin, end));
+    });
+    return true;
+}
+
+bool Multigrid::set_up() {
+    if (!set_up_smoother(*m_levels.front())) return false;
+    for (std::size_t l = 1; l < m_levels.size(); ++l) {
+        const Level& fine = *m_levels[l - 1];
+        Level& coarse = *m_levels[l];
+        constexpr std::size_t kBlock = 32;
+        parallel_blocks(coarse.columns(), kBlock, [&](std::size_t begin, std::size_t end) {
+            m_table.galerkin(fine.matrix(), fine.upper(), fine.transfer(), coarse.matrix(),
+                             range_of(begin, end));
+        });
+        if (!set_up_smoother(coarse)) return false;
+    }
+    return true;
+}
+
+void Multigrid::product(const Level& level, const float* x, float* y) const {
+    const MatrixArrays matrix = level.matrix();
+    for_schedule(level.order.columns, [&](Range range) { m_table.product(matrix, x, y, range); });
+}
+
+void Multigrid::product(const float* x, float* y) const { product(*m_levels.front(), x, y); }
+
+void Multigrid::apply(const float* b, float* x) { cycle(0, b, x); }
+
+void Multigrid::cycle(std::size_t l, const float* b, float* x) {
+    if (l + 1 == m_levels.size()) return solve_coarsest(b, x);
+    Level& level = *m_levels[l];
+    Level& coarse = *m_levels[l + 1];
+    const MatrixArrays matrix = level.matrix();
+    const SmootherArrays smoother = level.smoother();
+    float* residual = level.residual.data();
+    for_schedule(level.order.columns,
+                 [&](Range range) { m_table.sweep_forward(matrix, smoother, b, x, residual, range); });
+    parallel_blocks(coarse.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
+        m_table.restrict_residual(level.transfer(), 1.0F / level.matrix_scale, residual, coarse.b.data(),
+                                  range_of(begin, end));
+    });
+    cycle(l + 1, coarse.b.data(), coarse.x.data());
+    parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
+        m_table.prolong(level.transfer(), coarse.x.data(), x, residual, range_of(begin, end));
+    });
+    for_schedule_reversed(level.order.columns, [&](Range range) {
+        m_table.sweep_backward(matrix, smoother, b, x, residual, range);
+    });
+}
+
+void Multigrid::solve_coarsest(const float* b, float* x) {
+    Level& level = *m_levels.back();
+    const MatrixArrays matrix = level.matrix();
+    const SmootherArrays smoother = level.smoother();
+    const std::size_t size = level.columns() * 3 * m_layers;
+    float* residual = level.residual.data();
+    float* defect = level.defect.data();
+    float* correction = level.correction.data();
+    std::fill(x, x + size, 0.0F);
+    for (int sweep = 0; sweep < kCoarsestSweeps; ++sweep) {
+        product(level, x, defect);
+        for (std::size_t i = 0; i < size; ++i) defect[i] = b[i] - defect[i];
+        for_schedule(level.order.columns, [&](Range range) {
+            m_table.sweep_forward(matrix, smoother, defect, correction, residual, range);
+        });
+        std::fill(residual, residual + size, 0.0F);
+        for_schedule_reversed(level.order.columns, [&](Range range) {
+            m_table.sweep_backward(matrix, smoother, defect, correction, residual, range);
+        });
+        for (std::size_t i = 0; i < size; ++i) x[i] += correction[i];
+    }
+}
+
+}  // namespace windfall::drying

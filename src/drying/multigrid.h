@@ -1,0 +1,56 @@
+#pragma once
+// Preconditioner of the Newton systems: a V(1,1) cycle that coarsens the two surface directions by 2 and
+// keeps the columns whole. Smoother: symmetric block Gauss-Seidel whose blocks are whole columns, in half
+// precision. Coarse matrices: Galerkin. Coarsest level: three symmetric sweeps.
+#include <memory>
+#include <vector>
+
+#include "core/aligned_array.h"
+#include "drying/column_order.h"
+#include "geometry/brick_surface.h"
+
+namespace windfall::drying {
+
+class Multigrid {
+  public:
+    /// `layers`: 8 or 16. Allocates everything; the finest matrix is zero.
+    Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table);
+    ~Multigrid();
+    Multigrid(const Multigrid&) = delete;
+    Multigrid& operator=(const Multigrid&) = delete;
+
+    /// Order of columns and quads of the finest level; vectors are [column][3][layers] in it.
+    const ColumnOrder& order() const;
+    int layers() const { return m_layers; }
+    std::size_t vector_size() const {
+        return static_cast<std::size_t>(order().column_count()) * 3 * m_layers;
+    }
+    const KernelTable& table() const { return m_table; }
+
+    /// The finest matrix, to be assembled into. Setting it to zero is the caller's part too.
+    MatrixArrays matrix();
+    void set_matrix_zero();
+
+    /// Makes coarse matrices and smoothers from the finest matrix. False when a column's own block is not
+    /// positive definite: then neither is the matrix, and `apply` must not be called.
+    bool set_up();
+
+    /// x = one V-cycle for A x = b, from zero; symmetric and, where A is, positive definite.
+    void apply(const float* b, float* x);
+    /// y = A x
+    void product(const float* x, float* y) const;
+
+  private:
+    struct Level;
+    bool set_up_smoother(Level& level);
+    void cycle(std::size_t level, const float* b, float* x);
+    void solve_coarsest(const float* b, float* x);
+    void product(const Level& level, const float* x, float* y) const;
+
+    int m_layers;
+    const KernelTable& m_table;
+    std::vector<std::unique_ptr<Level>> m_levels;  ///< finest first
+    AlignedArray<float> m_inverse;                 ///< of the level that is being set up
+};
+
+}  // namespace windfall::drying

@@ -1,0 +1,202 @@
+#include "drying/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace windfall::drying {
+
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 13U;
+// A step may leave the potential higher by its rounding error, no more.
+constexpr double kRounding = 1e-12;
+
+double norm(const AlignedArray<double>& a) {
+    return std::sqrt(parallel_sum(a.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += a[i] * a[i];
+        return sum;
+    }));
+}
+
+bool accepts(double trial_potential, double start_potential) {
+    return trial_potential <= start_potential + kRounding * std::abs(start_potential);
+}
+
+}  // namespace
+
+bool NewtonSolver::State::valid() const { return std::isfinite(potential); }
+
+NewtonSolver::NewtonSolver(Elasticity& elasticity)
+    : m_elasticity(elasticity),
+      m_linear(elasticity.multigrid(), elasticity.mean_weights()),
+      m_current(elasticity.size()),
+      m_trial(elasticity.size()),
+      m_corrected(elasticity.size()),
+      m_right(elasticity.size()),
+      m_step(elasticity.size()) {}
+
+double NewtonSolver::damping_energy(const AlignedArray<double>& displacement, const Damping& damping,
+                                    AlignedArray<double>* force) const {
+    if (damping.factor == 0) return 0;
+    const auto layers = static_cast<std::size_t>(m_elasticity.multigrid().layers());
+    const AlignedArray<double>& mass = m_elasticity.mass();
+    const AlignedArray<double>& from = *damping.from;
+    const std::size_t columns = mass.size() / layers;
+    const double sum = parallel_sum(columns, kBlock / 16, [&](std::size_t begin, std::size_t end) {
+        double partial = 0;
+        for (std::size_t c = begin; c < end; ++c)
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t k = 0; k < layers; ++k) {
+                    const std::size_t at = (3 * c + i) * layers + k;
+                    const double difference = displacement[at] - from[at];
+                    const double weighted = mass[c * layers + k] * difference;
+                    partial += weighted * difference;
+                    if (force != nullptr) (*force)[at] += damping.factor * weighted;
+                }
+        return partial;
+    });
+    return 0.5 * damping.factor * sum;
+}
+
+void NewtonSolver::evaluate(State& state, const Damping& damping) {
+    const PhaseTimer timer(m_times.energy_s);
+    const ElasticEnergy elastic = m_elasticity.energy(state.displacement, &state.force);
+    state.elastic_energy = elastic.energy;
+    state.smallest_volume_ratio = elastic.smallest_volume_ratio;
+    state.potential = elastic.valid()
+                          ? elastic.energy + damping_energy(state.displacement, damping, &state.force)
+                          : std::numeric_limits<double>::infinity();
+    state.force_norm = elastic.valid() ? norm(state.force) : std::numeric_limits<double>::infinity();
+}
+
+double NewtonSolver::potential(const AlignedArray<double>& displacement, const Damping& damping) const {
+    const ElasticEnergy elastic = m_elasticity.energy(displacement, nullptr);
+    if (!elastic.valid()) return std::numeric_limits<double>::infinity();
+    return elastic.energy + damping_energy(displacement, damping, nullptr);
+}
+
+LinearResult NewtonSolver::linear_step(const State& at, double tolerance, int max_iterations, double radius,
+                                       double reference_force, const RunContext& context) {
+    const PhaseTimer timer(m_times.linear_solver_s);
+    for (std::size_t i = 0; i < m_right.size(); ++i)
+        m_right[i] = static_cast<float>(-at.force[i] / reference_force);
+    return m_linear.solve(m_right, m_step, tolerance, max_iterations, radius / reference_force, context);
+}
+
+LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, double tolerance,
+                                       double radius, const NewtonSettings& settings,
+                                       const RunContext& context, bool& indefinite) {
+    // Where the exact tangent is so indefinite that not even the blocks of the smoother are definite, its
+    // stress terms are scaled down, a little more each time. The direction found is still one of descent.
+    LinearResult result;
+    for (double softening = 0; softening < 1; softening = softening == 0 ? 0.02 : 2 * softening) {
+        {
+            const PhaseTimer timer(m_times.assembly_s);
+            m_elasticity.assemble(at.displacement, 1 - softening, damping.factor);
+        }
+        bool definite = false;
+        {
+            const PhaseTimer timer(m_times.multigrid_setup_s);
+            definite = m_elasticity.multigrid().set_up();
+        }
+        result.status = LinearStatus::NotDefinite;
+        if (definite)
+            result = linear_step(at, tolerance, settings.max_linear_iterations, radius,
+                                 settings.reference_force, context);
+        if (result.status != LinearStatus::NotDefinite) return result;
+        indefinite = true;
+        context.throw_if_cancelled();
+    }
+    return result;
+}
+
+void NewtonSolver::take_step(const State& from, State& to, double reference_force) const {
+    for (std::size_t i = 0; i < m_step.size(); ++i)
+        to.displacement[i] = from.displacement[i] + reference_force * static_cast<double>(m_step[i]);
+}
+
+/// Second-order corrections: near incompressibility makes a curved valley, which a straight step leaves. A
+/// few more linear iterations with the same matrix lead back to its floor. Returns how many were taken.
+int NewtonSolver::correct(State& trial, const State& start, double step_length, const Damping& damping,
+                          const NewtonSettings& settings, const RunContext& context, int& linear_iterations) {
+    constexpr int kIterations = 4;
+    constexpr double kTolerance = 0.1;
+    int corrections = 0;
+    const double accepted_force = settings.tolerance * settings.reference_force;
+    const auto needs_correction = [&] {
+        const bool higher = !accepts(trial.potential, start.potential);
+        const bool rougher = trial.force_norm > start.force_norm && trial.force_norm > accepted_force;
+        return trial.valid() && (higher || rougher);
+    };
+    while (corrections < settings.max_corrections && needs_correction()) {
+        ++corrections;
+        const LinearResult linear =
+            linear_step(trial, kTolerance, kIterations, 0.5 * step_length, settings.reference_force, context);
+        linear_iterations += linear.iterations;
+        if (linear.status == LinearStatus::NotDefinite) break;
+        take_step(trial, m_corrected, settings.reference_force);
+        evaluate(m_corrected, damping);
+        if (!(m_corrected.potential < trial.potential)) break;
+        std::swap(trial, m_corrected);
+    }
+    return corrections;
+}
+
+NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Damping& damping,
+                                    const NewtonSettings& settings, const RunContext& context) {
+    constexpr double kLoosest =
+        0.1;  // forcing terms: tolerances of the linear solver (Eisenstat and Walker 1996)
+    constexpr double kTightest = 3e-3;
+    constexpr double kShrink = 0.35;
+    constexpr double kLargestGrowth = 8;
+    std::swap(m_current.displacement, displacement);
+    evaluate(m_current, damping);
+    NewtonResult result;
+    result.potentials.push_back(m_current.potential);
+    double radius = settings.radius;
+    double last_norm = 3 * m_current.force_norm;
+    const auto at_minimum = [&] {
+        return m_current.force_norm < settings.tolerance * settings.reference_force;
+    };
+    while (m_current.valid() && !at_minimum() && result.newton_steps < settings.max_iterations &&
+           result.rejections < settings.max_rejections) {
+        ++result.newton_steps;
+        const double forcing =
+            std::clamp(0.5 * std::pow(m_current.force_norm / last_norm, 1.5), kTightest, kLoosest);
+        const LinearResult linear =
+            newton_step(m_current, damping, forcing, radius, settings, context, result.indefinite);
+        result.linear_iterations += linear.iterations;
+        if (linear.status == LinearStatus::NotDefinite) break;
+        if (linear.status == LinearStatus::NegativeCurvature) result.indefinite = true;
+        const double step_length = std::sqrt(m_linear.mass_dot(m_step, m_step)) * settings.reference_force;
+        take_step(m_current, m_trial, settings.reference_force);
+        evaluate(m_trial, damping);
+        const int corrections =
+            correct(m_trial, m_current, step_length, damping, settings, context, result.linear_iterations);
+        if (m_trial.valid() && accepts(m_trial.potential, m_current.potential)) {
+            last_norm = m_current.force_norm;
+            std::swap(m_current, m_trial);
+            result.potentials.push_back(m_current.potential);
+            const bool limited =
+                linear.status == LinearStatus::OnBoundary || linear.status == LinearStatus::NegativeCurvature;
+            if (limited)
+                radius = std::min(radius * (corrections <= 1 ? 2.0 : 1.3), kLargestGrowth * settings.radius);
+        } else {
+            ++result.rejections;
+            radius = kShrink * step_length;
+            last_norm = 3 * m_current.force_norm;
+        }
+    }
+    result.converged = m_current.valid() && at_minimum();
+    result.potential = m_current.potential;
+    result.elastic_energy = m_current.elastic_energy;
+    result.smallest_volume_ratio = m_current.smallest_volume_ratio;
+    result.residual = m_current.force_norm / settings.reference_force;
+    std::swap(m_current.displacement, displacement);
+    return result;
+}
+
+}  // namespace windfall::drying

@@ -1,0 +1,85 @@
+#pragma once
+// Every number and choice of a drying run. The defaults here are the only ones; the table built from them
+// (drying_parameters) is what recipes are checked against and what --help, the schema and the docs print.
+#include <cstdint>
+#include <vector>
+
+#include "core/parameter.h"
+
+namespace windfall::drying {
+
+/// The ten numbers of Liu et al. 2015, eq. (8), (9), in units of r_1 (the south pole's radius), and the real
+/// size.
+struct FruitParameters {
+    double r2 = 1, r3 = 1, r4 = 1, r5 = 1, r6 = 1, r7 = 1;
+    double r8 = 1;
+    double stone_r1 = 0.4, stone_r2 = 0.4;
+    double skin_thickness = 0.04;
+    double size_m = 0.015;
+};
+
+struct MaterialParameters {
+    double gamma = 10;
+    double bulk_ratio = 50;
+};
+
+struct ShrinkageParameters {
+    double shrinkage = 0.3;
+    double skin_fraction = 0;
+    double radial = 1, meridional = 1, latitudinal = 1;
+};
+
+struct MeshParameters {
+    std::int64_t n = 0;
+    double elongation = 0;
+    double edge_over_te = 0.75;
+    std::int64_t layers = 0;
+    std::int64_t skin_layers = 2;
+    double growth = 0;
+};
+
+enum class ImperfectionKind { Noise, Modes, None };
+
+struct ImperfectionParameters {
+    ImperfectionKind kind = ImperfectionKind::Noise;
+    double amplitude = 0.001;
+    double longest_wave = 2.8;
+    double shortest_wave = 0.36;
+    std::int64_t modes = 16;
+    double linearize_at = 0;
+};
+
+struct SolverParameters {
+    double max_step = 0.01;
+    double viscosity = 1;
+    double late_viscosity = 3;
+    double newton_tolerance = 0.1;
+};
+
+struct OutputParameters {
+    std::int64_t frames = 7;
+    std::vector<double> shrinkages;
+};
+
+struct DryingParameters {
+    std::int64_t seed = 1;
+    FruitParameters fruit;
+    MaterialParameters material;
+    ShrinkageParameters drying;
+    MeshParameters mesh;
+    ImperfectionParameters imperfection;
+    SolverParameters solver;
+    OutputParameters output;
+};
+
+/// The table that declares every parameter of drying: key, unit, range, default, documentation.
+const ParameterTable<DryingParameters>& drying_parameters();
+
+/// Checks what no single range can say: a stone that pierces the skin, a shape that folds, frames beyond the
+/// end. Throws InputError with the keys concerned and the remedy.
+void check(const DryingParameters& parameters);
+
+/// The shrinkages at which frames are taken, rising, the first 0 and the last `drying.shrinkage`.
+std::vector<double> frame_shrinkages(const DryingParameters& parameters);
+
+}  // namespace windfall::drying

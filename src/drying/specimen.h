@@ -1,0 +1,33 @@
+#pragma once
+// From the parameters of a fruit to the solid mesh that is solved on.
+#include <memory>
+
+#include "drying/parameters.h"
+#include "geometry/fruit_shape.h"
+#include "geometry/layered_mesh.h"
+
+namespace windfall::drying {
+
+/// The fruit's shape; throws InputError where the ten numbers make none.
+std::unique_ptr<geometry::FruitShape> make_shape(const FruitParameters& fruit);
+
+/// How the fruit is meshed once the parameters that are 0 ("choose for me") have been chosen.
+struct MeshPlan {
+    geometry::Lattice cells{};
+    int layers = 0;
+    int skin_layers = 0;
+    double growth = 1;
+};
+MeshPlan plan_mesh(const DryingParameters& parameters, const geometry::FruitShape& shape);
+
+/// The fresh fruit without imperfection.
+geometry::LayeredMesh make_mesh(const DryingParameters& parameters, const geometry::FruitShape& shape);
+
+/// Wave length of wrinkles of a film on a soft half space, 2 pi t_e (gamma / 3)^(1/3), in r_1.
+double expected_wave_length(const DryingParameters& parameters);
+
+/// Shrinkage at which they are expected: the film's critical strain (1/4) (3 / gamma)^(2/3), over 1.5 since a
+/// fruit's skin is pressed in both directions.
+double expected_onset(const DryingParameters& parameters);
+
+}  // namespace windfall::drying

@@ -1,0 +1,47 @@
+#include "geometry/smooth_surface.h"
+
+#include <cmath>
+
+namespace windfall::geometry {
+
+SlowField::SlowField(const std::vector<Vec3>& directions, const std::vector<double>& weights)
+    : m_basis(directions.size(), kFunctions),
+      m_weights(
+          Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()))) {
+    for (Eigen::Index v = 0; v < m_basis.rows(); ++v) {
+        const Vec3& d = directions[v];
+        int f = 0;
+        for (int degree = kDegree - 1; degree <= kDegree; ++degree)
+            for (int i = 0; i <= degree; ++i)
+                for (int j = 0; i + j <= degree; ++j)
+                    m_basis(v, f++) =
+                        std::pow(d.x(), i) * std::pow(d.y(), j) * std::pow(d.z(), degree - i - j);
+    }
+    m_normal_equations.compute(m_basis.transpose() * m_weights.asDiagonal() * m_basis);
+}
+
+std::vector<Vec3> SlowField::project(const std::vector<Vec3>& field) const {
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> values(
+        field.front().data(), static_cast<Eigen::Index>(field.size()), 3);
+    const Eigen::Matrix<double, kFunctions, 3> right = m_basis.transpose() * m_weights.asDiagonal() * values;
+    const Eigen::Matrix<double, kFunctions, 3> coefficients = m_normal_equations.solve(right);
+    std::vector<Vec3> result(field.size());
+    for (std::size_t v = 0; v < field.size(); ++v)
+        result[v] = (m_basis.row(static_cast<Eigen::Index>(v)) * coefficients).transpose();
+    return result;
+}
+
+std::vector<double> depth_below_smooth_surface(const SlowField& slow, const std::vector<Vec3>& rest,
+                                               const std::vector<Vec3>& positions,
+                                               const std::vector<Face>& faces) {
+    std::vector<Vec3> displacement(rest.size());
+    for (std::size_t v = 0; v < rest.size(); ++v) displacement[v] = positions[v] - rest[v];
+    std::vector<Vec3> smooth = slow.project(displacement);
+    for (std::size_t v = 0; v < rest.size(); ++v) smooth[v] += rest[v];
+    const std::vector<Vec3> normals = vertex_normals(smooth, faces);
+    std::vector<double> depth(rest.size());
+    for (std::size_t v = 0; v < rest.size(); ++v) depth[v] = (smooth[v] - positions[v]).dot(normals[v]);
+    return depth;
+}
+
+}  // namespace windfall::geometry
