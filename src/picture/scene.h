@@ -1,0 +1,78 @@
+#pragma once
+// What is rendered: surfaces with a colour per vertex on a studio floor, under lights far away.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace windfall::picture {
+
+using Vec3f = Eigen::Vector3f;
+
+/// How light is reflected, all over one surface.
+struct Finish {
+    float roughness = 0.4F;  ///< of the clear coat: GGX, alpha = roughness squared
+    float gloss = 1;         ///< weight of the clear coat (F0 0.04); 0: none
+    Vec3f scatter =
+        Vec3f::Zero();  ///< mean path of light under the surface, per colour, in units of the scene; 0: none
+};
+
+/// A surface fine enough to be drawn with its facets: quadrilaterals with normals and colours at the
+/// vertices.
+struct SceneMesh {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;                       ///< unit length, outwards
+    std::vector<Vec3f> albedo;                        ///< linear RGB, 0..1
+    std::vector<std::array<std::uint32_t, 4>> quads;  ///< a triangle repeats its last corner
+    Finish finish;
+};
+
+/// A round light so far away that it is the same everywhere, seen as a disc of even brightness.
+struct DistantLight {
+    Vec3f direction = Vec3f::UnitY();  ///< towards the light, unit length
+    float angular_radius_deg = 15;
+    Vec3f irradiance = Vec3f::Ones();  ///< on a plane that faces it
+};
+
+/// Light from all around: a gradient with the sine of the elevation.
+struct Sky {
+    Vec3f zenith = Vec3f::Ones();
+    Vec3f horizon = Vec3f::Ones();
+    Vec3f nadir = Vec3f::Ones();
+    Vec3f radiance(const Vec3f& direction) const;
+};
+
+/// The floor reflects like grey paper; the camera sees the backdrop in its place, darkened by the shadows on
+/// it, so that there is no horizon.
+struct Floor {
+    float height = 0;
+    Vec3f albedo = Vec3f::Constant(0.6F);
+};
+
+/// Looks at `target` from an orbit; y is up.
+struct Camera {
+    Vec3f target = Vec3f::Zero();
+    double azimuth_deg = 25;
+    double elevation_deg = 22;
+    double distance = 5;
+    double vertical_field_of_view_deg = 24;
+};
+
+/// The camera that sees the whole of a sphere with `margin` (1: it touches the frame).
+Camera frame_sphere(const Vec3f& centre, double radius, double azimuth_deg, double elevation_deg,
+                    double margin = 1.12);
+
+struct Scene {
+    std::vector<SceneMesh> meshes;
+    std::vector<DistantLight> lights;
+    Sky sky;
+    bool has_floor = true;
+    Floor floor;
+    Vec3f backdrop_top =
+        Vec3f::Constant(0.8F);  ///< what the camera sees behind all, from the top of the picture
+    Vec3f backdrop_bottom = Vec3f::Constant(0.8F);
+    Camera camera;
+};
+
+}  // namespace windfall::picture
