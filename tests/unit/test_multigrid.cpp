@@ -1,0 +1,151 @@
+#include "drying/multigrid.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "drying/conjugate_gradients.h"
+#include "support/small_body.h"
+
+namespace windfall::drying {
+namespace {
+
+constexpr double kNoRadius = std::numeric_limits<double>::infinity();
+
+struct Body {
+    geometry::LayeredMesh mesh;
+    Multigrid multigrid;
+    Elasticity elasticity;
+
+    explicit Body(int n, int layers = 8, double bulk_ratio = 50)
+        : mesh(test::small_sphere(n, layers)),
+          multigrid(mesh.brick, layers, kernels(layers)),
+          elasticity(mesh, layer_moduli(mesh.flesh_layers, layers, 10, bulk_ratio), multigrid) {
+        elasticity.assemble(AlignedArray<double>(elasticity.size()), 1, 0);
+    }
+
+    AlignedArray<float> apply(const AlignedArray<float>& b) {
+        AlignedArray<float> x(b.size());
+        multigrid.apply(b.data(), x.data());
+        return x;
+    }
+};
+
+AlignedArray<float> random_vector(std::size_t size, std::uint64_t seed) {
+    const AlignedArray<double> values = test::random_displacement(size, 1, seed);
+    AlignedArray<float> result(size);
+    std::copy(values.begin(), values.end(), result.begin());
+    return result;
+}
+
+double dot(const AlignedArray<float>& a, const AlignedArray<float>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+    return sum;
+}
+
+TEST(Multigrid, CycleIsSymmetricAndPositive) {
+    for (const int layers : {8, 16}) {
+        Body body(8, layers);
+        ASSERT_TRUE(body.multigrid.set_up());
+        const AlignedArray<float> a = random_vector(body.elasticity.size(), 1);
+        const AlignedArray<float> b = random_vector(body.elasticity.size(), 2);
+        const AlignedArray<float> ma = body.apply(a);
+        const AlignedArray<float> mb = body.apply(b);
+        EXPECT_GT(dot(a, ma), 0);
+        EXPECT_GT(dot(b, mb), 0);
+        // Half precision rounds the inverse blocks, which are symmetric only up to that.
+        EXPECT_NEAR(dot(a, mb), dot(b, ma), 2e-3 * std::sqrt(dot(a, ma) * dot(b, mb)));
+    }
+}
+
+TEST(Multigrid, ContractionDoesNotDependOnMeshSize) {
+    std::vector<int> iterations;
+    for (const int n : {8, 16, 32}) {
+        Body body(n);
+        ASSERT_TRUE(body.multigrid.set_up());
+        ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+        const AlignedArray<float> b = random_vector(body.elasticity.size(), 3);
+        AlignedArray<float> x(b.size());
+        const LinearResult result = solver.solve(b, x, 1e-5, 200, kNoRadius, {});
+        EXPECT_EQ(result.status, LinearStatus::Converged);
+        iterations.push_back(result.iterations);
+    }
+    EXPECT_LE(iterations.back(), 25);
+    EXPECT_LE(iterations[2], iterations[0] + 8);
+}
+
+TEST(Multigrid, SolutionAgreesWithADenseSolver) {
+    Body body(4);
+    ASSERT_TRUE(body.multigrid.set_up());
+    const auto size = static_cast<Eigen::Index>(body.elasticity.size());
+    Eigen::MatrixXd matrix(size, size);
+    AlignedArray<float> unit(body.elasticity.size());
+    AlignedArray<float> column(body.elasticity.size());
+    for (Eigen::Index j = 0; j < size; ++j) {
+        unit.set_zero();
+        unit[static_cast<std::size_t>(j)] = 1;
+        body.multigrid.product(unit.data(), column.data());
+        for (Eigen::Index i = 0; i < size; ++i) matrix(i, j) = column[static_cast<std::size_t>(i)];
+    }
+    EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-12 * matrix.norm());
+    const AlignedArray<float> b = random_vector(body.elasticity.size(), 4);
+    Eigen::VectorXd right(size);
+    for (Eigen::Index i = 0; i < size; ++i) right[i] = b[static_cast<std::size_t>(i)];
+    const Eigen::VectorXd expected = matrix.ldlt().solve(right);
+    ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+    AlignedArray<float> x(b.size());
+    ASSERT_EQ(solver.solve(b, x, 1e-6, 300, kNoRadius, {}).status, LinearStatus::Converged);
+    Eigen::VectorXd found(size);
+    for (Eigen::Index i = 0; i < size; ++i) found[i] = x[static_cast<std::size_t>(i)];
+    EXPECT_LT((found - expected).norm(), 1e-4 * expected.norm());
+}
+
+TEST(Multigrid, TrustRegionBoundsTheStep) {
+    Body body(8);
+    ASSERT_TRUE(body.multigrid.set_up());
+    ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+    const AlignedArray<float> b = random_vector(body.elasticity.size(), 5);
+    AlignedArray<float> free_step(b.size());
+    solver.solve(b, free_step, 1e-4, 200, kNoRadius, {});
+    const double radius = 0.3 * std::sqrt(solver.mass_dot(free_step, free_step));
+    AlignedArray<float> step(b.size());
+    const LinearResult result = solver.solve(b, step, 1e-4, 200, radius, {});
+    EXPECT_EQ(result.status, LinearStatus::OnBoundary);
+    EXPECT_NEAR(std::sqrt(solver.mass_dot(step, step)), radius, 1e-4 * radius);
+}
+
+TEST(Multigrid, NegativeCurvatureIsFollowedToTheRadius) {
+    Body body(8);
+    // A negative mass of this size makes the softest directions unstable and leaves the columns' own blocks definite.
+    body.elasticity.assemble(AlignedArray<double>(body.elasticity.size()), 1, -30);
+    ASSERT_TRUE(body.multigrid.set_up());
+    ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+    const AlignedArray<float> b = random_vector(body.elasticity.size(), 6);
+    AlignedArray<float> step(b.size());
+    const LinearResult result = solver.solve(b, step, 1e-6, 200, 1e3, {});
+    EXPECT_TRUE(result.status == LinearStatus::NegativeCurvature || result.status == LinearStatus::OnBoundary);
+    EXPECT_NEAR(std::sqrt(solver.mass_dot(step, step)), 1e3, 1);
+}
+
+TEST(Multigrid, IndefiniteBlocksAreRefused) {
+    Body body(4);
+    body.elasticity.assemble(AlignedArray<double>(body.elasticity.size()), 1, -1e6);
+    EXPECT_FALSE(body.multigrid.set_up());
+}
+
+TEST(Multigrid, CancelStopsTheSolver) {
+    Body body(4);
+    ASSERT_TRUE(body.multigrid.set_up());
+    ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+    const std::atomic<bool> cancel{true};
+    RunContext context;
+    context.cancel = &cancel;
+    AlignedArray<float> x(body.elasticity.size());
+    EXPECT_THROW(solver.solve(random_vector(x.size(), 7), x, 1e-6, 100, kNoRadius, context), Cancelled);
+}
+
+}  // namespace
+}  // namespace windfall::drying
