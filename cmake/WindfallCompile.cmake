@@ -8,6 +8,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 option(WINDFALL_WARNINGS_AS_ERRORS "Treat warnings as errors" ON)
 set(WINDFALL_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize (address,undefined)")
 
+# For every target alike: Eigen's types are laid out by the instruction set, and must be the same everywhere.
+add_compile_options(-march=x86-64-v3 -ffp-contract=fast)
+
 find_program(WINDFALL_CCACHE ccache)
 if(WINDFALL_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${WINDFALL_CCACHE}")
@@ -23,8 +26,7 @@ function(windfall_library name)
 endfunction()
 
 function(windfall_compile_options name)
-  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-psabi
-                                         -ffp-contract=fast -march=x86-64-v3)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-psabi)
   if(WINDFALL_WARNINGS_AS_ERRORS)
     target_compile_options(${name} PRIVATE -Werror)
   endif()

@@ -103,9 +103,15 @@ HexState hexahedron_state(const HexNodes& rest, const HexNodes& now, const HexMa
     bool first = true;
     for (int g = 0; g < 8; ++g) {
         const Gradients gradients = shape_gradients(g);
-        const double w = jacobian(rest, gradients).determinant();
-        const double w_now = jacobian(now, gradients).determinant();
+        const Eigen::Matrix3d rest_jacobian = jacobian(rest, gradients);
+        const Eigen::Matrix3d now_jacobian = jacobian(now, gradients);
+        const double w = rest_jacobian.determinant();
+        const double w_now = now_jacobian.determinant();
         const double elastic = w_now / (w * state.drying_volume_ratio);
+        const Eigen::Matrix3d fe = now_jacobian * rest_jacobian.inverse() * material.drying.inverse();
+        // mu / J (Fe Fe^T - I), summed over the current volume
+        state.stress += material.shear * w * state.drying_volume_ratio *
+                        (fe * fe.transpose() - Eigen::Matrix3d::Identity());
         state.smallest_elastic = first ? elastic : std::min(state.smallest_elastic, elastic);
         state.largest_elastic = first ? elastic : std::max(state.largest_elastic, elastic);
         state.rest_volume += w;
@@ -113,6 +119,8 @@ HexState hexahedron_state(const HexNodes& rest, const HexNodes& now, const HexMa
         first = false;
     }
     state.elastic_volume_ratio = state.volume / (state.rest_volume * state.drying_volume_ratio);
+    state.stress = state.stress / state.volume +
+                   material.bulk * (state.elastic_volume_ratio - 1) * Eigen::Matrix3d::Identity();
     state.pressure = -material.bulk * (state.elastic_volume_ratio - 1);
     return state;
 }

@@ -38,6 +38,7 @@ struct HexState {
     double elastic_volume_ratio = 1;  ///< mean of det Fe: volume / (rest_volume det Fd)
     double smallest_elastic = 1;      ///< min of det Fe over the integration points
     double largest_elastic = 1;
+    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< Cauchy stress, mean over the current volume
     double pressure = 0;  ///< -kappa (Jbar - 1): positive where squeezed, in units of C0 of the flesh
 };
 HexState hexahedron_state(const HexNodes& rest, const HexNodes& now, const HexMaterial& material);

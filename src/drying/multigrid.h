@@ -1,7 +1,7 @@
 #pragma once
 // Preconditioner of the Newton systems: a V(1,1) cycle that coarsens the two surface directions by 2 and
 // keeps the columns whole. Smoother: symmetric block Gauss-Seidel whose blocks are whole columns, in half
-// precision. Coarse matrices: Galerkin. Coarsest level: three symmetric sweeps.
+// precision. Coarse matrices: Galerkin. Coarsest level: nearly exact, by conjugate gradients.
 #include <memory>
 #include <vector>
 
@@ -35,7 +35,7 @@ class Multigrid {
     /// positive definite: then neither is the matrix, and `apply` must not be called.
     bool set_up();
 
-    /// x = one V-cycle for A x = b, from zero; symmetric and, where A is, positive definite.
+    /// x = one V-cycle for A x = b, from zero; nearly symmetric and, where A is, positive definite.
     void apply(const float* b, float* x);
     /// y = A x
     void product(const float* x, float* y) const;
@@ -44,6 +44,7 @@ class Multigrid {
     struct Level;
     bool set_up_smoother(Level& level);
     void cycle(std::size_t level, const float* b, float* x);
+    void smooth(Level& level, const float* b, float* x);
     void solve_coarsest(const float* b, float* x);
     void product(const Level& level, const float* x, float* y) const;
 

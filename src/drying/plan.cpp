@@ -73,18 +73,16 @@ Plan plan(const DryingParameters& parameters) {
     result.expected_wave_length = expected_wave_length(parameters);
     result.elements_per_wave = result.expected_wave_length / edge;
     const double thickness = parameters.fruit.skin_thickness;
-    const auto n_for_edge = [&](double wanted) {
-        return geometry::brick_for_edge(*shape, wanted, parameters.mesh.elongation)[0];
-    };
+    const double wanted_edge = std::min(0.75 * thickness, result.expected_wave_length / 10);
+    const int wanted_n = geometry::brick_for_edge(*shape, wanted_edge, parameters.mesh.elongation)[0];
     if (result.elements_per_wave < kFewestPerWave)
         result.warnings.push_back(fmt::format(
             "only {:.1f} elements to a wrinkle of the expected wave length {:.3g} r_1: set mesh.n = {}",
-            result.elements_per_wave, result.expected_wave_length,
-            n_for_edge(result.expected_wave_length / 10)));
+            result.elements_per_wave, result.expected_wave_length, wanted_n));
     else if (edge > kCoarsestEdge * thickness)
         result.warnings.push_back(fmt::format(
             "elements are {:.2f} skin thicknesses wide, too coarse for the skin's bending: set mesh.n = {}",
-            edge / thickness, n_for_edge(0.75 * thickness)));
+            edge / thickness, wanted_n));
     if (mesh.skin_layers < 2)
         result.warnings.emplace_back(
             "one layer of elements in the skin is too soft in bending: set mesh.skin_layers = 2");

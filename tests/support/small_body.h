@@ -6,8 +6,10 @@
 
 namespace windfall::test {
 
-/// A sphere of radius 1 with a stone of radius `stone`, n x n x n bricks, `layers` layers of which two are skin.
-inline geometry::LayeredMesh small_sphere(int n, int layers, double skin_thickness = 0.1, double stone = 0.4) {
+/// A sphere of radius 1 with a stone of radius `stone`, n x n x n bricks, `layers` layers of which two are
+/// skin.
+inline geometry::LayeredMesh small_sphere(int n, int layers, double skin_thickness = 0.1,
+                                          double stone = 0.4) {
     return geometry::make_layered_mesh(geometry::SphereShape(1, stone), skin_thickness, {n, n, n},
                                        geometry::graded_layers(layers - 2, 2, 1.2));
 }

@@ -12,7 +12,8 @@ namespace {
 
 /// A hexahedron that is no parallelepiped, and a deformed one.
 HexNodes bent_hexahedron(double amplitude, std::uint64_t seed) {
-    const double signs[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    const double signs[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     HexNodes nodes;
     for (int a = 0; a < 8; ++a) {
         const auto u = random_uniform4(seed, RandomPurpose::LanczosStart, static_cast<std::uint64_t>(a));
@@ -39,9 +40,9 @@ TEST(Element, GradientAgreesWithFiniteDifferences) {
         HexNodes down = now;
         up[d / 3][d % 3] += kStep;
         down[d / 3][d % 3] -= kStep;
-        const double difference =
-            (hexahedron_response(rest, up, material).energy - hexahedron_response(rest, down, material).energy) /
-            (2 * kStep);
+        const double difference = (hexahedron_response(rest, up, material).energy -
+                                   hexahedron_response(rest, down, material).energy) /
+                                  (2 * kStep);
         EXPECT_NEAR(response.gradient[d], difference, 1e-6 * response.gradient.norm());
     }
 }
@@ -102,7 +103,8 @@ TEST(Element, EnergyIsObjective) {
     const HexResponse after = hexahedron_response(rest, turned, material);
     EXPECT_NEAR(after.energy, before.energy, 1e-12 * before.energy);
     for (int a = 0; a < 8; ++a)
-        EXPECT_LT((after.gradient.segment<3>(3 * a) - rotation * before.gradient.segment<3>(3 * a)).norm(), 1e-10);
+        EXPECT_LT((after.gradient.segment<3>(3 * a) - rotation * before.gradient.segment<3>(3 * a)).norm(),
+                  1e-10);
 }
 
 /// The mean stress must do the work of the nodal forces: sum of f_a (x) x_a = V sigma (mean stress theorem).

@@ -1,4 +1,5 @@
-// The SIMD kernels against the plain element and against dense matrices, for both builds and both layer counts.
+// The SIMD kernels against the plain element and against dense matrices, for both builds and both layer
+// counts.
 #include "drying/kernels/kernels.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,8 @@ class Kernels : public testing::TestWithParam<Case> {
     }
 
     std::size_t unknown(std::int32_t vertex, int level, int axis) const {
-        return (3 * static_cast<std::size_t>(m_multigrid.order().solver_of_vertex[vertex]) + axis) * m_mesh.layers +
+        return (3 * static_cast<std::size_t>(m_multigrid.order().solver_of_vertex[vertex]) + axis) *
+                   m_mesh.layers +
                (level - 1);
     }
 
@@ -65,7 +67,8 @@ class Kernels : public testing::TestWithParam<Case> {
         for_elements([&](const HexResponse& r, const auto& unknowns) {
             for (int i = 0; i < 24; ++i)
                 for (int j = 0; j < 24; ++j)
-                    if (unknowns[i] >= 0 && unknowns[j] >= 0) matrix(unknowns[i], unknowns[j]) += r.hessian(i, j);
+                    if (unknowns[i] >= 0 && unknowns[j] >= 0)
+                        matrix(unknowns[i], unknowns[j]) += r.hessian(i, j);
         });
         return matrix;
     }
@@ -117,7 +120,8 @@ TEST_P(Kernels, MassIsAddedToTheDiagonalOnly) {
     AlignedArray<float> x(m_elasticity.size());
     AlignedArray<float> without(m_elasticity.size());
     AlignedArray<float> with(m_elasticity.size());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = static_cast<float>(std::sin(0.37 * static_cast<double>(i)));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = static_cast<float>(std::sin(0.37 * static_cast<double>(i)));
     m_elasticity.assemble(m_displacement, 1, 0);
     m_multigrid.product(x.data(), without.data());
     m_elasticity.assemble(m_displacement, 1, 1000);
@@ -135,20 +139,20 @@ TEST_P(Kernels, InvertedElementsAreNoticed) {
 }
 
 TEST_P(Kernels, LogarithmIsAccurateFarFromOne) {
-    // Free shrinking by theta costs nothing in the body as a whole only if ln(det F / det Fd) is right at every size.
+    // Free shrinking by theta costs nothing in the body as a whole only if ln(det F / det Fd) is right at
+    // every size.
     for (const double theta : {0.05, 0.3, 0.7, 1.0, 1.5, 4.0}) {
-        m_elasticity.set_drying([theta](std::size_t, int) -> Eigen::Matrix3d {
-            return theta * Eigen::Matrix3d::Identity();
-        });
+        m_elasticity.set_drying(
+            [theta](std::size_t, int) -> Eigen::Matrix3d { return theta * Eigen::Matrix3d::Identity(); });
         AlignedArray<double> zero(m_elasticity.size());
         const double energy = m_elasticity.energy(zero, nullptr).energy;
         double expected = 0;
         for (std::size_t q = 0; q < m_mesh.brick.quads.size(); ++q)
             for (int k = 0; k < m_mesh.layers; ++k) {
                 const HexNodes rest = element_nodes(m_mesh, q, k);
-                expected += hexahedron_response(rest, rest,
-                                                {m_moduli.shear[k], m_moduli.bulk[k],
-                                                 theta * Eigen::Matrix3d::Identity()})
+                expected += hexahedron_response(
+                                rest, rest,
+                                {m_moduli.shear[k], m_moduli.bulk[k], theta * Eigen::Matrix3d::Identity()})
                                 .energy;
             }
         EXPECT_NEAR(energy, expected, 1e-12 * std::max(1.0, expected)) << theta;

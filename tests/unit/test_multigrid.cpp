@@ -46,7 +46,7 @@ double dot(const AlignedArray<float>& a, const AlignedArray<float>& b) {
     return sum;
 }
 
-TEST(Multigrid, CycleIsSymmetricAndPositive) {
+TEST(Multigrid, CycleIsNearlySymmetricAndPositive) {
     for (const int layers : {8, 16}) {
         Body body(8, layers);
         ASSERT_TRUE(body.multigrid.set_up());
@@ -56,8 +56,8 @@ TEST(Multigrid, CycleIsSymmetricAndPositive) {
         const AlignedArray<float> mb = body.apply(b);
         EXPECT_GT(dot(a, ma), 0);
         EXPECT_GT(dot(b, mb), 0);
-        // Half precision rounds the inverse blocks, which are symmetric only up to that.
-        EXPECT_NEAR(dot(a, mb), dot(b, ma), 2e-3 * std::sqrt(dot(a, ma) * dot(b, mb)));
+        // The coarsest level is solved to 1e-2, and half precision rounds the inverse blocks.
+        EXPECT_NEAR(dot(a, mb), dot(b, ma), 1e-2 * std::sqrt(dot(a, ma) * dot(b, mb)));
     }
 }
 
@@ -73,8 +73,8 @@ TEST(Multigrid, ContractionDoesNotDependOnMeshSize) {
         EXPECT_EQ(result.status, LinearStatus::Converged);
         iterations.push_back(result.iterations);
     }
-    EXPECT_LE(iterations.back(), 25);
-    EXPECT_LE(iterations[2], iterations[0] + 8);
+    EXPECT_LE(iterations.back(), 40);
+    EXPECT_LE(iterations[2], iterations[0] + 4);
 }
 
 TEST(Multigrid, SolutionAgreesWithADenseSolver) {
@@ -90,7 +90,7 @@ TEST(Multigrid, SolutionAgreesWithADenseSolver) {
         body.multigrid.product(unit.data(), column.data());
         for (Eigen::Index i = 0; i < size; ++i) matrix(i, j) = column[static_cast<std::size_t>(i)];
     }
-    EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-12 * matrix.norm());
+    EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-6 * matrix.norm());  // single precision
     const AlignedArray<float> b = random_vector(body.elasticity.size(), 4);
     Eigen::VectorXd right(size);
     for (Eigen::Index i = 0; i < size; ++i) right[i] = b[static_cast<std::size_t>(i)];
@@ -119,14 +119,16 @@ TEST(Multigrid, TrustRegionBoundsTheStep) {
 
 TEST(Multigrid, NegativeCurvatureIsFollowedToTheRadius) {
     Body body(8);
-    // A negative mass of this size makes the softest directions unstable and leaves the columns' own blocks definite.
+    // A negative mass of this size makes the softest directions unstable and leaves the columns' own blocks
+    // definite.
     body.elasticity.assemble(AlignedArray<double>(body.elasticity.size()), 1, -30);
     ASSERT_TRUE(body.multigrid.set_up());
     ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
     const AlignedArray<float> b = random_vector(body.elasticity.size(), 6);
     AlignedArray<float> step(b.size());
     const LinearResult result = solver.solve(b, step, 1e-6, 200, 1e3, {});
-    EXPECT_TRUE(result.status == LinearStatus::NegativeCurvature || result.status == LinearStatus::OnBoundary);
+    EXPECT_TRUE(result.status == LinearStatus::NegativeCurvature ||
+                result.status == LinearStatus::OnBoundary);
     EXPECT_NEAR(std::sqrt(solver.mass_dot(step, step)), 1e3, 1);
 }
 

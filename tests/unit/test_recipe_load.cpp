@@ -69,11 +69,11 @@ TEST_F(RecipeLoad, ReadsTheHeadOfARecipe) {
 
 TEST_F(RecipeLoad, BuildsOnAPreset) {
     const Recipe jujube = load("jujube");
-    const Recipe mine = load(write("preset = 'jujube'\n[fruit]\nskin_thickness = 0.03\n", "mine.toml"));
+    const Recipe mine = load(write("preset = 'jujube'\n[fruit]\nskin_thickness = 0.035\n", "mine.toml"));
     EXPECT_EQ(mine.name, "mine");
     EXPECT_EQ(mine.title, "mine");
-    EXPECT_EQ(mine.drying.fruit.skin_thickness, 0.03);
-    EXPECT_NE(jujube.drying.fruit.skin_thickness, 0.03);
+    EXPECT_EQ(mine.drying.fruit.skin_thickness, 0.035);
+    EXPECT_NE(jujube.drying.fruit.skin_thickness, 0.035);
     EXPECT_EQ(mine.drying.fruit.r4, jujube.drying.fruit.r4);
     EXPECT_EQ(mine.look.dry_colour, jujube.look.dry_colour);
     EXPECT_EQ(mine.sources, jujube.sources);
