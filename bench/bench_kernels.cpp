@@ -63,7 +63,9 @@ class Body : public benchmark::Fixture {
     static constexpr double kDamping = 30;
 
     const AlignedArray<double>& displacement() const { return m_path->state().displacements.front(); }
-    LevelBytes finest() const { return {m_path->mesh().brick.cells, double(m_path->mesh().layers)}; }
+    LevelBytes finest() const {
+        return {m_path->mesh().brick.cells, static_cast<double>(m_path->mesh().layers)};
+    }
     template <class Term>
     double sum_over_levels(Term term) const {
         geometry::Lattice cells = m_path->mesh().brick.cells;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DryOptions {
     std::string recipe;
     std::vector<std::string> settings;
     std::string output;
@@ -44,14 +44,14 @@ void print_plan(const recipe::Recipe& recipe, const drying::Plan& plan, const fs
     fmt::print("take         {}\n", folder.string());
 }
 
-take::TakeWriter open_take(const Options& options, const recipe::Recipe& recipe, const fs::path& folder) {
+take::TakeWriter open_take(const DryOptions& options, const recipe::Recipe& recipe, const fs::path& folder) {
     const take::TakeInfo info = recipe::take_info(recipe);
     return options.resume ? take::TakeWriter::resume(folder, info)
                           : take::TakeWriter::create(folder, info, options.force);
 }
 
 /// The contact sheet, in a folder of its own so that the take's files stay apart.
-std::vector<fs::path> draw(const Options& options, const fs::path& folder, const RunContext& context) {
+std::vector<fs::path> draw(const DryOptions& options, const fs::path& folder, const RunContext& context) {
     picture::ShowOptions show;
     show.output_folder = folder / "pictures";
     // In a fresh take there is nothing to replace; the others were asked for.
@@ -72,7 +72,7 @@ std::string shell_text(const fs::path& path) {
     return quoted + "'";
 }
 
-void run_take(const Options& options, const recipe::Recipe& recipe, const fs::path& folder,
+void run_take(const DryOptions& options, const recipe::Recipe& recipe, const fs::path& folder,
               RunContext context, ProgressPrinter& printer) {
     take::TakeWriter writer = open_take(options, recipe, folder);
     context.on_log = [&](const std::string& line) { writer.log(line); };
@@ -84,7 +84,7 @@ void run_take(const Options& options, const recipe::Recipe& recipe, const fs::pa
     }
 }
 
-void run_and_draw(const Options& options, const recipe::Recipe& recipe, const fs::path& folder,
+void run_and_draw(const DryOptions& options, const recipe::Recipe& recipe, const fs::path& folder,
                   ProgressPrinter& printer) {
     RunContext context;
     context.cancel = &cancel_on_signals();
@@ -102,7 +102,7 @@ void run_and_draw(const Options& options, const recipe::Recipe& recipe, const fs
     printer.done(folder, pictures);
 }
 
-void dry(const Options& options) {
+void dry(const DryOptions& options) {
     const ThreadLimit threads(options.threads);
     std::vector<std::string> settings = options.settings;
     if (options.seed) settings.push_back(fmt::format("seed={}", *options.seed));
@@ -132,7 +132,7 @@ void dry(const Options& options) {
 
 void add_dry(CLI::App& app) {
     CLI::App* command = app.add_subcommand("dry", "Dry a fruit until its skin wrinkles, into a take folder");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DryOptions>();
     command->add_option("RECIPE", options->recipe, "A preset's name, or the path of a recipe file (.toml)")
         ->required();
     // One value each, so that the recipe may stand behind it.

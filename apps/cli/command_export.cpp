@@ -13,7 +13,7 @@
 namespace windfall::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
     std::string take;
     std::vector<std::string> formats;
     std::string output;
@@ -24,7 +24,7 @@ struct Options {
     bool force = false;
 };
 
-void export_formats(const Options& options) {
+void export_formats(const ExportOptions& options) {
     const std::unique_ptr<ProgressPrinter> printer = make_progress_printer(options.progress);
     std::vector<export_::ExportFormat> formats;
     for (const std::string& name : options.formats) formats.push_back(export_::export_format(name));
@@ -59,7 +59,7 @@ void export_formats(const Options& options) {
 
 void add_export(CLI::App& app) {
     CLI::App* command = app.add_subcommand("export", "Write a take's frames for other programs");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExportOptions>();
     command->add_option("TAKE", options->take, "The take's folder")->required();
     command
         ->add_option("--to", options->formats,

@@ -13,7 +13,7 @@
 namespace windfall::cli {
 namespace {
 
-struct Options {
+struct ShowOptions {
     std::string take;
     std::string output;
     std::string kind = "contact-sheet";
@@ -24,7 +24,7 @@ struct Options {
     picture::ShowOptions show;
 };
 
-void show(Options options) {
+void show(ShowOptions options) {
     const ThreadLimit threads(options.threads);
     const std::unique_ptr<ProgressPrinter> printer = make_progress_printer(options.progress);
     options.show.kind = picture::show_kind_named(options.kind);
@@ -49,7 +49,7 @@ void show(Options options) {
 
 void add_show(CLI::App& app) {
     CLI::App* command = app.add_subcommand("show", "Make pictures of a take");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ShowOptions>();
     picture::ShowOptions& show_options = options->show;
     command->add_option("TAKE", options->take, "The take's folder")->required();
     command->add_option("--kind", options->kind, "contact-sheet, frame, turntable or time-lapse")

@@ -104,14 +104,9 @@ std::vector<Vec3> to_nodes(const Eigen::VectorXd& mode, const LayeredMesh& mesh,
 
 BucklingModes find_buckling_modes(const LayeredMesh& mesh, const DryingParameters& parameters,
                                   const RunContext& context) {
-    constexpr double kSafeFraction = 0.6;  // of the expected onset: surely not buckled yet
-    constexpr double kBeyond = 0.1;        // of the shrinkage linearised about
     constexpr double kModeTolerance = 1e-3;
     constexpr int kRestarts = 30;
-    const double start = parameters.imperfection.linearize_at > 0
-                             ? parameters.imperfection.linearize_at
-                             : kSafeFraction * expected_onset(parameters);
-    const double beyond = start * (1 + kBeyond);
+    const auto [start, beyond] = buckling_linearization(parameters);
     context.progress({"buckling modes", 0, 1, -1, fmt::format("linearising about shrinkage {:.3f}", start)});
 
     // The fundamental path is stable, so it needs no damping; the tangents should be those of true

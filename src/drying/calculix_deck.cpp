@@ -24,16 +24,17 @@ void put(Text& text, fmt::format_string<Arguments...> format, Arguments&&... arg
 
 void check_isotropic(const ShrinkageParameters& drying) {
     if (drying.radial == drying.meridional && drying.meridional == drying.latitudinal) return;
-    throw InputError(fmt::format(
-        "a CalculiX deck holds isotropic drying only, and drying.radial, drying.meridional and "
-        "drying.latitudinal are {}, {} and {}: make them equal, or export the frames instead",
-        drying.radial, drying.meridional, drying.latitudinal));
+    throw InputError(
+        fmt::format("a CalculiX deck holds isotropic drying only, and drying.radial, drying.meridional and "
+                    "drying.latitudinal are {}, {} and {}: make them equal, or export the frames instead",
+                    drying.radial, drying.meridional, drying.latitudinal));
 }
 
 void put_header(Text& text, const LayeredMesh& mesh) {
     put(text,
         "** Drying of a core/shell fruit: an input deck for CalculiX (ccx), written by Windfall.\n"
-        "** Lengths in r_1, stresses in C0 of the flesh (shear modulus 2). Temperature 0 is fresh, 1 is dry.\n"
+        "** Lengths in r_1, stresses in C0 of the flesh (shear modulus 2). Temperature 0 is fresh, 1 is "
+        "dry.\n"
         "** Node    1 + vertex * {} + level: level 0 lies on the stone, level {} on the skin; the vertices\n"
         "**         of the skin are numbered from 0 as in the take.\n"
         "** Element 1 + quad * {} + layer: layers 0 to {} are flesh, {} to {} skin.\n",
@@ -114,6 +115,8 @@ std::string calculix_deck(const LayeredMesh& mesh, const DryingParameters& param
         "*STEP, NLGEOM, INC=100000\n"
         "*STATIC\n"
         "{0:.6e},1.,1.e-6,{0:.6e}\n"
+        "*CONTROLS, PARAMETERS=FIELD\n"
+        "1.e-6,1.e-6\n"
         "*TEMPERATURE\n"
         "ALL,1.\n"
         "*NODE PRINT, NSET=SKIN_SURFACE, FREQUENCY=100000\n"

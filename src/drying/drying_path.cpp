@@ -154,7 +154,7 @@ void DryingPath::advance(double target, const RunContext& context, const std::fu
         const double left = target - m_state.shrinkage;
         if (!attempt(std::min(m_state.next_step, left), context, record)) {
             if (m_state.next_step < kSmallestStep)
-                throw RunError(fmt::format(
+                throw LostEquilibrium(fmt::format(
                     "equilibrium was lost at shrinkage {:.4f}: no increment above {} converged. Try a larger "
                     "solver.viscosity (now {}), a larger imperfection.amplitude (now {}), a finer mesh.n, or "
                     "stop at "

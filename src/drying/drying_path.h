@@ -11,6 +11,12 @@
 
 namespace windfall::drying {
 
+/// No increment converges any more; the text says at which shrinkage and what to try.
+class LostEquilibrium : public RunError {
+  public:
+    using RunError::RunError;
+};
+
 /// What is kept of every accepted increment.
 struct StepRecord {
     double shrinkage = 0;

@@ -70,8 +70,8 @@ class Run {
         } catch (const Cancelled&) {
             save();
             throw;
-        } catch (const RunError&) {
-            m_sink.set_summary(summary());
+        } catch (const LostEquilibrium&) {
+            save();
             throw;
         }
     }

@@ -81,8 +81,10 @@ double NewtonSolver::potential(const AlignedArray<double>& displacement, const D
 LinearResult NewtonSolver::linear_step(const State& at, double tolerance, int max_iterations, double radius,
                                        double reference_force, const RunContext& context) {
     const PhaseTimer timer(m_times.linear_solver_s);
-    for (std::size_t i = 0; i < m_right.size(); ++i)
-        m_right[i] = static_cast<float>(-at.force[i] / reference_force);
+    parallel_blocks(m_right.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            m_right[i] = static_cast<float>(-at.force[i] / reference_force);
+    });
     return m_linear.solve(m_right, m_step, tolerance, max_iterations, radius / reference_force, context);
 }
 
@@ -114,8 +116,10 @@ LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, 
 }
 
 void NewtonSolver::take_step(const State& from, State& to, double reference_force) const {
-    for (std::size_t i = 0; i < m_step.size(); ++i)
-        to.displacement[i] = from.displacement[i] + reference_force * static_cast<double>(m_step[i]);
+    parallel_blocks(m_step.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            to.displacement[i] = from.displacement[i] + reference_force * static_cast<double>(m_step[i]);
+    });
 }
 
 /// Second-order corrections: near incompressibility makes a curved valley, which a straight step leaves. A

@@ -102,7 +102,8 @@ void add_numerics(Table& t) {
     t.add("solver.max_step", "1", [](auto& p) -> auto& { return p.solver.max_step; },
           "largest increment of shrinkage", {.maximum = 0.1, .above = 0});
     t.add("solver.viscosity", "1", [](auto& p) -> auto& { return p.solver.viscosity; },
-          "damping c of the viscous stabilisation, in C0 of the flesh over the time of the whole drying",
+          "damping c of the viscous stabilisation, in C0 of the flesh times the time of the whole drying "
+          "over r_1^2",
           {.minimum = 0, .maximum = 1000});
     t.add("solver.late_viscosity", "1", [](auto& p) -> auto& { return p.solver.late_viscosity; },
           "the same once the wrinkles stand", {.minimum = 0, .maximum = 1000});

@@ -22,13 +22,22 @@ void check(const DryingParameters& p) {
         throw InputError(fmt::format("mesh.elongation must be 0 or at least 1, not {}", p.mesh.elongation));
     if (p.imperfection.longest_wave <= p.imperfection.shortest_wave)
         throw InputError("imperfection.longest_wave must be larger than imperfection.shortest_wave");
-    const double largest =
-        p.drying.shrinkage * std::max({p.drying.radial, p.drying.meridional, p.drying.latitudinal});
-    if (largest >= 1)
+    const double largest_factor = std::max({p.drying.radial, p.drying.meridional, p.drying.latitudinal});
+    if (largest_factor <= 0)
+        throw InputError(
+            "nothing would shrink: make one of drying.radial, drying.meridional, drying.latitudinal "
+            "larger than 0");
+    if (p.drying.shrinkage * largest_factor >= 1)
         throw InputError(
             fmt::format("the flesh would shrink to nothing in one direction (shrinkage {} there): make "
                         "drying.shrinkage or drying.radial, meridional, latitudinal smaller",
-                        largest));
+                        p.drying.shrinkage * largest_factor));
+    if (p.imperfection.kind == ImperfectionKind::Modes &&
+        buckling_linearization(p).beyond * largest_factor >= 1)
+        throw InputError(
+            fmt::format("buckling modes cannot be linearised about shrinkage {:.3g}: set a smaller "
+                        "imperfection.linearize_at, or a larger material.gamma",
+                        buckling_linearization(p).at));
     for (const double shrinkage : p.output.shrinkages)
         if (shrinkage > p.drying.shrinkage)
             throw InputError(

@@ -24,6 +24,14 @@ double expected_onset(const DryingParameters& parameters) {
     return 0.25 * std::pow(3 / parameters.material.gamma, 2.0 / 3) / kBiaxial;
 }
 
+BucklingLinearization buckling_linearization(const DryingParameters& parameters) {
+    constexpr double kSafeFraction = 0.6;  // of the expected onset: surely not buckled yet
+    constexpr double kBeyond = 0.1;        // of the shrinkage linearised about
+    const double asked = parameters.imperfection.linearize_at;
+    const double at = asked > 0 ? asked : kSafeFraction * expected_onset(parameters);
+    return {at, at * (1 + kBeyond)};
+}
+
 namespace {
 
 /// Mean thickness of the flesh over directions spread over the fruit.

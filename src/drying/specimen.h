@@ -30,4 +30,11 @@ double expected_wave_length(const DryingParameters& parameters);
 /// fruit's skin is pressed in both directions.
 double expected_onset(const DryingParameters& parameters);
 
+/// The two shrinkages between whose tangents buckling is linearised (see buckling_modes.h).
+struct BucklingLinearization {
+    double at = 0;
+    double beyond = 0;
+};
+BucklingLinearization buckling_linearization(const DryingParameters& parameters);
+
 }  // namespace windfall::drying

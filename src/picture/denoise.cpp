@@ -24,8 +24,6 @@ struct Pixel {
     float variance = 0;  // of the luminance of the light
 };
 
-float luminance(const Vec3f& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
-
 std::vector<Pixel> pixels_of(const std::vector<PixelSums>& sums, int samples) {
     const auto n = static_cast<float>(samples);
     std::vector<Pixel> pixels(sums.size());

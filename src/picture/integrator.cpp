@@ -11,8 +11,6 @@ constexpr float kBrightestIndirect = 8;
 
 constexpr float kNoFloor = 1e30F;
 
-float luminance(const Vec3f& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
-
 Vec3f limited(const Vec3f& radiance) {
     const float brightest = radiance.maxCoeff();
     return brightest > kBrightestIndirect ? Vec3f(radiance * (kBrightestIndirect / brightest)) : radiance;

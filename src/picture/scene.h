@@ -10,6 +10,9 @@ namespace windfall::picture {
 
 using Vec3f = Eigen::Vector3f;
 
+/// Brightness of a linear colour as the eye weighs it (Rec. 709).
+inline float luminance(const Vec3f& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
+
 /// How light is reflected, all over one surface.
 struct Finish {
     float roughness = 0.4F;  ///< of the clear coat: GGX, alpha = roughness squared

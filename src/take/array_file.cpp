@@ -82,7 +82,7 @@ std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
     return value;
 }
 
-[[noreturn]] void fail(const std::string& file_name, const std::string& what) {
+[[noreturn]] void damaged_array(const std::string& file_name, const std::string& what) {
     throw InputError(
         fmt::format("{}: {}; put a sound copy in its place or make the take again", file_name, what));
 }
@@ -98,8 +98,8 @@ std::vector<std::byte> decompressed(std::span<const std::byte> stored, std::uint
         const std::size_t in_before = in.pos, out_before = out.pos;
         const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
         if (ZSTD_isError(left) != 0)
-            fail(file_name,
-                 fmt::format("array '{}' does not decompress ({})", array, ZSTD_getErrorName(left)));
+            damaged_array(file_name,
+                          fmt::format("array '{}' does not decompress ({})", array, ZSTD_getErrorName(left)));
         if (left == 0) break;
         if (out.pos == out.size && bytes.size() < size) {
             bytes.resize(std::min<std::uint64_t>(size, 2 * bytes.size()));
@@ -110,7 +110,7 @@ std::vector<std::byte> decompressed(std::span<const std::byte> stored, std::uint
         }
     }
     if (in.pos != in.size || out.pos != size || bytes.size() != size)
-        fail(file_name, fmt::format("array '{}' does not have the length of its shape", array));
+        damaged_array(file_name, fmt::format("array '{}' does not have the length of its shape", array));
     return bytes;
 }
 
@@ -126,31 +126,33 @@ struct Entry {
 std::uint64_t natural_number(const nlohmann::json& object, const char* key, const std::string& file_name) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_number_unsigned())
-        fail(file_name, fmt::format("'{}' of an array in the header is not a natural number", key));
+        damaged_array(file_name, fmt::format("'{}' of an array in the header is not a natural number", key));
     return found->get<std::uint64_t>();
 }
 
 Entry checked_entry(const nlohmann::json& json, const std::string& file_name) {
     constexpr std::array<std::uint64_t, 4> kTypeBytes = {4, 8, 4, 1};
-    if (!json.is_object()) fail(file_name, "the list of arrays in the header is damaged");
+    if (!json.is_object()) damaged_array(file_name, "the list of arrays in the header is damaged");
     Entry entry;
     const auto name = json.find("name"), type = json.find("dtype"), shape = json.find("shape");
-    if (name == json.end() || !name->is_string()) fail(file_name, "an array in the header has no name");
+    if (name == json.end() || !name->is_string())
+        damaged_array(file_name, "an array in the header has no name");
     entry.name = name->get<std::string>();
     if (type != json.end())
         entry.type = std::find(kTypeNames.begin(), kTypeNames.end(), *type) - kTypeNames.begin();
     if (type == json.end() || entry.type == kTypeNames.size())
-        fail(file_name, fmt::format("array '{}' is of no known type", entry.name));
+        damaged_array(file_name, fmt::format("array '{}' is of no known type", entry.name));
     entry.bytes = kTypeBytes[entry.type];
     if (shape == json.end() || !shape->is_array() || shape->size() > kMaxDimensions)
-        fail(file_name, fmt::format("array '{}' has no sound shape", entry.name));
+        damaged_array(file_name, fmt::format("array '{}' has no sound shape", entry.name));
     for (const auto& length : *shape) {
         if (!length.is_number_unsigned())
-            fail(file_name, fmt::format("array '{}' has no sound shape", entry.name));
+            damaged_array(file_name, fmt::format("array '{}' has no sound shape", entry.name));
         entry.shape.push_back(length.get<std::uint64_t>());
         if (__builtin_mul_overflow(entry.bytes, entry.shape.back(), &entry.bytes) ||
             entry.bytes > kMaxArrayBytes)
-            fail(file_name, fmt::format("array '{}' claims to be larger than any of a take", entry.name));
+            damaged_array(file_name,
+                          fmt::format("array '{}' claims to be larger than any of a take", entry.name));
     }
     entry.offset = natural_number(json, "offset", file_name);
     entry.stored_bytes = natural_number(json, "stored_bytes", file_name);
@@ -160,28 +162,30 @@ Entry checked_entry(const nlohmann::json& json, const std::string& file_name) {
 
 // The JSON header, after the checks that need no JSON.
 nlohmann::json checked_header(std::span<const std::byte> bytes, const std::string& file_name) {
-    if (bytes.size() < kPreambleBytes) fail(file_name, "the file is cut off");
+    if (bytes.size() < kPreambleBytes) damaged_array(file_name, "the file is cut off");
     if (std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
-        fail(file_name, "this is not a Windfall array file");
+        damaged_array(file_name, "this is not a Windfall array file");
     if (const auto version = u32_at(bytes, 8); version != kVersion)
-        fail(file_name, fmt::format("the file has version {} of the format, this program reads version {}",
-                                    version, kVersion));
+        damaged_array(file_name,
+                      fmt::format("the file has version {} of the format, this program reads version {}",
+                                  version, kVersion));
     const std::size_t header_bytes = u32_at(bytes, 12);
     if (header_bytes > kMaxHeaderBytes || header_bytes > bytes.size() - kPreambleBytes)
-        fail(file_name, "the file is cut off in its header");
+        damaged_array(file_name, "the file is cut off in its header");
     const auto header = bytes.subspan(kPreambleBytes, header_bytes);
-    if (checksum(header) != u32_at(bytes, 16)) fail(file_name, "the header does not fit its checksum");
+    if (checksum(header) != u32_at(bytes, 16))
+        damaged_array(file_name, "the header does not fit its checksum");
     const char* text = reinterpret_cast<const char*>(header.data());
     auto json = nlohmann::json::parse(text, text + header.size(), nullptr, false);
     if (!json.is_object() || !json.contains("meta") || !json["meta"].is_object() ||
         !json.contains("arrays") || !json["arrays"].is_array())
-        fail(file_name, "the header is damaged");
+        damaged_array(file_name, "the header is damaged");
     return json;
 }
 
 ArrayData decoded(const Entry& entry, std::span<const std::byte> stored, const std::string& file_name) {
     if (checksum(stored) != entry.checksum)
-        fail(file_name, fmt::format("array '{}' does not fit its checksum", entry.name));
+        damaged_array(file_name, fmt::format("array '{}' does not fit its checksum", entry.name));
     const auto planes = decompressed(stored, entry.bytes, entry.name, file_name);
     switch (entry.type) {
         case 0:
@@ -248,17 +252,17 @@ ArrayFile decode_array_file(std::span<const std::byte> bytes, const std::string&
     for (const auto& json : header["arrays"]) {
         Entry entry = checked_entry(json, file_name);
         if (!names.insert(entry.name).second)
-            fail(file_name, fmt::format("two arrays have the name '{}'", entry.name));
+            damaged_array(file_name, fmt::format("two arrays have the name '{}'", entry.name));
         if (entry.offset != offset)
-            fail(file_name, fmt::format("array '{}' does not follow the one before it", entry.name));
+            damaged_array(file_name, fmt::format("array '{}' does not follow the one before it", entry.name));
         if (entry.stored_bytes > rest.size())
-            fail(file_name, fmt::format("the file is cut off in array '{}'", entry.name));
+            damaged_array(file_name, fmt::format("the file is cut off in array '{}'", entry.name));
         auto data = decoded(entry, rest.first(entry.stored_bytes), file_name);
         rest = rest.subspan(entry.stored_bytes);
         offset += entry.stored_bytes;
         file.arrays.push_back({std::move(entry.name), std::move(entry.shape), std::move(data)});
     }
-    if (!rest.empty()) fail(file_name, "there are more bytes than arrays");
+    if (!rest.empty()) damaged_array(file_name, "there are more bytes than arrays");
     return file;
 }
 
@@ -266,16 +270,17 @@ template <class T>
 const std::vector<T>& required_array(const ArrayFile& file, const std::string& name,
                                      const std::vector<std::uint64_t>& shape, const std::string& file_name) {
     const NamedArray* array = file.find(name);
-    if (array == nullptr) fail(file_name, fmt::format("array '{}' is missing", name));
+    if (array == nullptr) damaged_array(file_name, fmt::format("array '{}' is missing", name));
     const auto fits = [](std::uint64_t wanted, std::uint64_t length) {
         return wanted == 0 || wanted == length;
     };
     if (!std::equal(shape.begin(), shape.end(), array->shape.begin(), array->shape.end(), fits))
-        fail(file_name, fmt::format("array '{}' has the shape ({}), not ({})", name,
-                                    fmt::join(array->shape, ", "), fmt::join(shape, ", ")));
+        damaged_array(file_name, fmt::format("array '{}' has the shape ({}), not ({})", name,
+                                             fmt::join(array->shape, ", "), fmt::join(shape, ", ")));
     const auto* values = std::get_if<std::vector<T>>(&array->data);
     if (values == nullptr)
-        fail(file_name, fmt::format("array '{}' is of type {}", name, kTypeNames[array->data.index()]));
+        damaged_array(file_name,
+                      fmt::format("array '{}' is of type {}", name, kTypeNames[array->data.index()]));
     return *values;
 }
 

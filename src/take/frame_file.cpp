@@ -15,7 +15,7 @@ using geometry::Face;
 using geometry::Vec2;
 using geometry::Vec3;
 
-[[noreturn]] void fail(const std::string& file_name, const std::string& what) {
+[[noreturn]] void damaged_frame(const std::string& file_name, const std::string& what) {
     throw InputError(fmt::format("{}: {}; make the take again", file_name, what));
 }
 
@@ -62,8 +62,8 @@ std::vector<Attribute> attributes_from(const ArrayFile& file, const nlohmann::js
         attribute.values = required_array<float>(file, prefix + attribute.name, {0, 0}, file_name);
         const auto& shape = file.find(prefix + attribute.name)->shape;
         if (shape[0] != vertices || shape[1] < 1 || shape[1] > 1024)
-            fail(file_name,
-                 fmt::format("attribute '{}' does not fit the vertices of its mesh", attribute.name));
+            damaged_frame(file_name, fmt::format("attribute '{}' does not fit the vertices of its mesh",
+                                                 attribute.name));
         attribute.components = static_cast<int>(shape[1]);
         attributes.push_back(std::move(attribute));
     }
@@ -77,7 +77,7 @@ double number_or_nan(const nlohmann::json& json) {
 
 void check_kind(const ArrayFile& file, const char* kind, const std::string& file_name) {
     if (file.meta.value("kind", std::string()) != kind)
-        fail(file_name, fmt::format("this is not a {}", kind));
+        damaged_frame(file_name, fmt::format("this is not a {}", kind));
 }
 
 Frame frame_from_checked_json(const ArrayFile& file, const std::string& file_name) {
@@ -106,7 +106,7 @@ void check_faces(const geometry::SurfaceMesh& mesh, const std::string& file_name
             const std::int32_t v = mesh.faces[f][c];
             const bool absent = c == 3 && v == geometry::kNoVertex;
             if (!absent && (v < 0 || v >= vertices))
-                fail(file_name, fmt::format("face {} names vertex {} of {}", f, v, vertices));
+                damaged_frame(file_name, fmt::format("face {} names vertex {} of {}", f, v, vertices));
         }
 }
 
@@ -122,7 +122,8 @@ TakeMesh mesh_from_checked_json(const ArrayFile& file, const std::string& file_n
     check_faces(mesh.rest, file_name);
     if (file.find("corner_uvs") != nullptr) {
         const auto& uvs = required_array<double>(file, "corner_uvs", {0, 4, 2}, file_name);
-        if (uvs.size() != 2 * faces.size()) fail(file_name, "the texture coordinates do not fit the faces");
+        if (uvs.size() != 2 * faces.size())
+            damaged_frame(file_name, "the texture coordinates do not fit the faces");
         mesh.rest.corner_uvs.resize(mesh.rest.faces.size());
         for (std::size_t i = 0; i < faces.size(); ++i)
             mesh.rest.corner_uvs[i / 4][i % 4] = Vec2(uvs[2 * i], uvs[2 * i + 1]);
@@ -171,7 +172,7 @@ Frame frame_from(const ArrayFile& file, const std::string& file_name) {
     try {
         return frame_from_checked_json(file, file_name);
     } catch (const nlohmann::json::exception& problem) {
-        fail(file_name, fmt::format("the description of the frame is damaged ({})", problem.what()));
+        damaged_frame(file_name, fmt::format("the description of the frame is damaged ({})", problem.what()));
     }
 }
 
@@ -179,7 +180,7 @@ TakeMesh mesh_from(const ArrayFile& file, const std::string& file_name) {
     try {
         return mesh_from_checked_json(file, file_name);
     } catch (const nlohmann::json::exception& problem) {
-        fail(file_name, fmt::format("the description of the mesh is damaged ({})", problem.what()));
+        damaged_frame(file_name, fmt::format("the description of the mesh is damaged ({})", problem.what()));
     }
 }
 

@@ -35,7 +35,7 @@ bool same(const ArrayFile& a, const ArrayFile& b) {
     return true;
 }
 
-std::string message_of(const Bytes& bytes) {
+std::string problem_of(const Bytes& bytes) {
     try {
         decode_array_file(bytes, "frame_0003.wfa");
     } catch (const InputError& problem) {
@@ -176,40 +176,40 @@ TEST(ArrayFile, ForgedHeadersDoNotCrash) {
 TEST(ArrayFile, AbsurdLengthsAreRefusedAndCostNoMemory) {
     const Bytes blob = zeros_frame(1);
     const auto crc = plain_crc32(blob);
-    ASSERT_EQ(message_of(forged(header_of("[32768]", blob.size(), crc), blob)), "no error");
+    ASSERT_EQ(problem_of(forged(header_of("[32768]", blob.size(), crc), blob)), "no error");
     // 4 GiB claimed, 128 KiB there: were it allocated at once, the sanitizers' limit and small machines would
     // tell.
-    EXPECT_THAT(message_of(forged(header_of("[1073741824]", blob.size(), crc), blob)),
+    EXPECT_THAT(problem_of(forged(header_of("[1073741824]", blob.size(), crc), blob)),
                 testing::HasSubstr("length of its shape"));
-    EXPECT_THAT(message_of(forged(header_of("[32767]", blob.size(), crc), blob)),
+    EXPECT_THAT(problem_of(forged(header_of("[32767]", blob.size(), crc), blob)),
                 testing::HasSubstr("length of its shape"));
     for (const char* shape :
          {"[4611686018427387904]", "[4294967296,4294967296]", "[18446744073709551615,2,0]"})
-        EXPECT_THAT(message_of(forged(header_of(shape, blob.size(), crc), blob)),
+        EXPECT_THAT(problem_of(forged(header_of(shape, blob.size(), crc), blob)),
                     testing::HasSubstr("larger"));
     for (const char* shape : {"[-1]", "[1.5]", "\"x\"", "[1,1,1,1,1,1,1,1,1]", "null"})
-        EXPECT_THAT(message_of(forged(header_of(shape, blob.size(), crc), blob)), testing::HasSubstr("shape"))
+        EXPECT_THAT(problem_of(forged(header_of(shape, blob.size(), crc), blob)), testing::HasSubstr("shape"))
             << shape;
-    EXPECT_THAT(message_of(forged(header_of("[32768]", 1u << 30, crc), blob)), testing::HasSubstr("cut off"));
-    EXPECT_THAT(message_of(forged(header_of("[32768]", blob.size(), crc, 1), blob)),
+    EXPECT_THAT(problem_of(forged(header_of("[32768]", 1u << 30, crc), blob)), testing::HasSubstr("cut off"));
+    EXPECT_THAT(problem_of(forged(header_of("[32768]", blob.size(), crc, 1), blob)),
                 testing::HasSubstr("follow"));
-    EXPECT_THAT(message_of(forged(header_of("[32768]", blob.size(), crc + 1), blob)),
+    EXPECT_THAT(problem_of(forged(header_of("[32768]", blob.size(), crc + 1), blob)),
                 testing::HasSubstr("checksum"));
 }
 
 TEST(ArrayFile, DeepNestingDoesNotOverflowTheStack) {
     const std::string deep =
         "{\"meta\":{\"a\":" + std::string(2000000, '[') + std::string(2000000, ']') + "},\"arrays\":[]}";
-    EXPECT_EQ(message_of(forged(deep, {})), "no error");
+    EXPECT_EQ(problem_of(forged(deep, {})), "no error");
 }
 
 TEST(ArrayFile, MessagesNameTheFileAndTheProblem) {
-    EXPECT_THAT(message_of({}),
+    EXPECT_THAT(problem_of({}),
                 testing::AllOf(testing::StartsWith("frame_0003.wfa: "), testing::HasSubstr("cut off")));
-    EXPECT_THAT(message_of(Bytes(100)), testing::HasSubstr("not a Windfall array file"));
+    EXPECT_THAT(problem_of(Bytes(100)), testing::HasSubstr("not a Windfall array file"));
     Bytes newer = encode_array_file(sample_file());
     newer[8] = std::byte{2};
-    EXPECT_THAT(message_of(newer), testing::HasSubstr("version 2"));
+    EXPECT_THAT(problem_of(newer), testing::HasSubstr("version 2"));
 }
 
 }  // namespace

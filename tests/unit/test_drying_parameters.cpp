@@ -54,6 +54,11 @@ TEST(DryingParameters, WhatNoSingleRangeSaysIsChecked) {
         p.drying.radial = 3;
         p.drying.shrinkage = 0.4;
     });
+    refused([](auto& p) { p.drying.radial = p.drying.meridional = p.drying.latitudinal = 0; });
+    refused([](auto& p) {
+        p.imperfection.kind = ImperfectionKind::Modes;
+        p.imperfection.linearize_at = 0.95;
+    });
     refused([](auto& p) { p.output.shrinkages = {0.1, 0.5}; });
     refused([](auto& p) { p.fruit.stone_r1 = 1.2; });
 }

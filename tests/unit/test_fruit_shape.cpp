@@ -11,13 +11,12 @@
 namespace windfall::geometry {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const std::array<double, 8> kOnes = {1, 1, 1, 1, 1, 1, 1, 1};
 
 std::array<double, 8> ellipsoid(double b, double c) {
     std::array<double, 8> radii{};
     for (int i = 0; i < 7; ++i) {
-        const double phi = -kPi / 2 + i * kPi / 6;
+        const double phi = -std::numbers::pi / 2 + i * std::numbers::pi / 6;
         radii[i] = 1 / std::hypot(std::sin(phi), std::cos(phi) / b);
     }
     radii[7] = c;
@@ -29,7 +28,7 @@ TEST(FruitShape, EqualRadiiMakeASphereToSplineAccuracy) {
     for (const Vec3& direction : brick_directions(make_brick_surface({8, 8, 8}), Vec3::Ones()))
         EXPECT_NEAR(fruit.flesh_radius(direction), 1, 5e-4);
     for (int i = 0; i < 7; ++i) {
-        const double phi = -kPi / 2 + i * kPi / 6;
+        const double phi = -std::numbers::pi / 2 + i * std::numbers::pi / 6;
         EXPECT_NEAR((fruit.generatrix(phi) - Vec2(std::cos(phi), std::sin(phi))).norm(), 0, 1e-12);
     }
 }
@@ -39,7 +38,7 @@ TEST(FruitShape, GeneratrixHasNoKinks) {
     const TenNumberFruit fruit(ellipsoid(0.6, 0.6), 0.4, 0.2);
     constexpr double kStep = 1e-4;
     for (int i = 1; i < 6; ++i) {
-        const double phi = -kPi / 2 + i * kPi / 6;
+        const double phi = -std::numbers::pi / 2 + i * std::numbers::pi / 6;
         const Vec2 left = (fruit.generatrix(phi) - fruit.generatrix(phi - kStep)) / kStep;
         const Vec2 right = (fruit.generatrix(phi + kStep) - fruit.generatrix(phi)) / kStep;
         EXPECT_NEAR((right - left).norm(), 0, 5 * kStep);

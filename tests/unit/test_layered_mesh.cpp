@@ -12,8 +12,6 @@
 namespace windfall::geometry {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(LayeredMesh, LayersFillFleshAndSkin) {
     const LayerFractions fractions = graded_layers(6, 2, 1.35);
     EXPECT_EQ(fractions.count(), 8);
@@ -33,7 +31,7 @@ TEST(LayeredMesh, GrowthGivesTheOutermostLayerAskedFor) {
 
 TEST(LayeredMesh, VolumeConvergesToTheShellAtSecondOrder) {
     const SphereShape sphere(1, 0.4);
-    const double exact = 4 * kPi / 3 * (std::pow(1.1, 3) - std::pow(0.4, 3));
+    const double exact = 4 * std::numbers::pi / 3 * (std::pow(1.1, 3) - std::pow(0.4, 3));
     std::vector<double> errors;
     for (const int n : {8, 16, 32}) {
         const LayeredMesh mesh = make_layered_mesh(sphere, 0.1, {n, n, n}, graded_layers(6, 2, 1.3));
@@ -61,7 +59,7 @@ TEST(LayeredMesh, EdgesAreEvenOnRoundAndLongFruit) {
     for (const double width : {1.0, 0.8, 0.62, 0.5}) {
         std::array<double, 8> radii{};
         for (int i = 0; i < 7; ++i) {
-            const double phi = -kPi / 2 + i * kPi / 6;
+            const double phi = -std::numbers::pi / 2 + i * std::numbers::pi / 6;
             radii[i] = 1 / std::hypot(std::sin(phi), std::cos(phi) / width);
         }
         radii[7] = width;

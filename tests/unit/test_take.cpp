@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "support/message_of.h"
 #include "support/sample_take.h"
 #include "support/temporary_folder.h"
 #include "take/take_reader.h"
@@ -18,16 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <class Error = InputError, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& problem) {
-        return problem.what();
-    }
-    return "no error";
-}
 
 std::vector<std::byte> some_bytes(std::size_t count) {
     std::vector<std::byte> bytes(count);

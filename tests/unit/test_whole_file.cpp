@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "support/message_of.h"
 #include "support/temporary_folder.h"
 #include "take/whole_file.h"
 
@@ -46,16 +47,6 @@ class FileSizeLimit {
     void (*m_handler)(int);
     rlimit m_before{};
 };
-
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& problem) {
-        return problem.what();
-    }
-    return "no error";
-}
 
 TEST_F(WholeFile, WritesAndReplaces) {
     write_whole_file(m_path, "first");
