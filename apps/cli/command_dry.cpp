@@ -36,7 +36,7 @@ struct DryOptions {
 void print_plan(const recipe::Recipe& recipe, const drying::Plan& plan, const fs::path& folder) {
     const double te = recipe.drying.fruit.skin_thickness;
     fmt::print("recipe       {} ({})\n", recipe.name, recipe.title);
-    fmt::print("mesh         {} x {} x {} brick, {} layers\n", plan.n, plan.n, plan.n_axial, plan.layers);
+    fmt::print("mesh         {} x {} x {} brick, {} layers\n", plan.n, plan.n_axial, plan.n, plan.layers);
     fmt::print("unknowns     {}\n", plan.unknowns);
     fmt::print("wave length  about {:.3g} r_1, {:.3g} t_e; {:.3g} elements a wave\n",
                plan.expected_wave_length, plan.expected_wave_length / te, plan.elements_per_wave);

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "export/export_take.h"
 #include "progress.h"
+#include "recipe/export_calculix.h"
 
 namespace windfall::cli {
 namespace {
@@ -24,10 +25,38 @@ struct ExportOptions {
     bool force = false;
 };
 
+/// What a take was made from, for CalculiX; all other formats are of its frames.
+const std::string kCalculix = "inp";
+
+std::vector<std::string> format_names() {
+    std::vector<std::string> names = export_::export_format_names();
+    names.push_back(kCalculix);
+    return names;
+}
+
+void check_formats(const ExportOptions& options) {
+    const std::vector<std::string> known = format_names();
+    const auto is_known = [&](const std::string& name) {
+        return std::find(known.begin(), known.end(), name) != known.end();
+    };
+    for (const std::string& name : options.formats)
+        if (!is_known(name))
+            throw InputError(
+                fmt::format("'{}' is no export format; there are {}", name, fmt::join(known, ", ")));
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    if (extension.empty() || !is_known(extension.substr(1))) return;
+    // A file takes one format only; say so before the first is written.
+    if (options.formats.size() > 1)
+        throw InputError(
+            fmt::format("-o {}: several formats go into a folder, not into one file", options.output));
+    if (extension.substr(1) != options.formats.front())
+        throw InputError(fmt::format("{} does not end in .{}; change the name, or the format to --to {}",
+                                     options.output, options.formats.front(), extension.substr(1)));
+}
+
 void export_formats(const ExportOptions& options) {
     const std::unique_ptr<ProgressPrinter> printer = make_progress_printer(options.progress);
-    std::vector<export_::ExportFormat> formats;
-    for (const std::string& name : options.formats) formats.push_back(export_::export_format(name));
+    check_formats(options);
     const take::TakeReader take(options.take);
     RunContext context;
     context.cancel = &cancel_on_signals();
@@ -35,21 +64,17 @@ void export_formats(const ExportOptions& options) {
     export_::ExportOptions settings;
     settings.output = options.output.empty() ? std::filesystem::path(options.take) / "export"
                                              : std::filesystem::path(options.output);
-    if (formats.size() > 1 && settings.output.has_extension()) {
-        // A file takes one format only; say so before the first is written.
-        const std::string extension = settings.output.extension().string().substr(1);
-        const auto& names = export_::export_format_names();
-        if (std::find(names.begin(), names.end(), extension) != names.end())
-            throw InputError(
-                fmt::format("-o {}: several formats go into a folder, not into one file", options.output));
-    }
     settings.frame = options.frame;
     settings.scale = options.scale;
     settings.overwrite = options.force;
     settings.frames_per_second = options.frames_per_second;
     std::vector<std::filesystem::path> files;
-    for (const auto format : formats) {
-        settings.format = format;
+    for (const std::string& name : options.formats) {
+        if (name == kCalculix) {
+            files.push_back(recipe::export_calculix(options.take, settings.output, options.force, context));
+            continue;
+        }
+        settings.format = export_::export_format(name);
         for (const auto& file : export_::export_take(take, settings, context)) files.push_back(file);
     }
     for (const auto& file : files) fmt::print("{}\n", file.string());
@@ -63,7 +88,7 @@ void add_export(CLI::App& app) {
     command->add_option("TAKE", options->take, "The take's folder")->required();
     command
         ->add_option("--to", options->formats,
-                     fmt::format("One or more of {}", fmt::join(export_::export_format_names(), ",")))
+                     fmt::format("One or more of {}", fmt::join(format_names(), ",")))
         ->required()
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -84,7 +109,8 @@ void add_export(CLI::App& app) {
         "Examples:\n"
         "  windfall export jujube-seed1.take --to glb -o jujube.glb\n"
         "  windfall export jujube-seed1.take --to obj,ply --frame 6\n"
-        "  windfall export jujube-seed1.take --to obj --scale 100 -o frames");
+        "  windfall export jujube-seed1.take --to obj --scale 100 -o frames\n"
+        "  windfall export jujube-seed1.take --to inp       the recipe as a CalculiX deck");
     command->callback([options] { export_formats(*options); });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Large flat arrays for the hot loops: 64-byte aligned, zero at first, on huge pages where the system gives
+// Large flat arrays for the hot loops: 128-byte aligned, zero at first, on huge pages where the system gives
 // them.
 #include <sys/mman.h>
 
@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 namespace windfall {
 
@@ -21,7 +22,7 @@ class AlignedArray {
     explicit AlignedArray(std::size_t size) : m_size(size) {
         constexpr std::size_t kHugePage = std::size_t{2} << 20U;
         const std::size_t wanted = size * sizeof(T);
-        const std::size_t alignment = wanted >= 2 * kHugePage ? kHugePage : 64;
+        const std::size_t alignment = wanted >= 2 * kHugePage ? kHugePage : 128;
         const std::size_t bytes = (wanted + alignment - 1) / alignment * alignment;
         if (bytes == 0) return;
         m_data.reset(static_cast<T*>(std::aligned_alloc(alignment, bytes)));
@@ -32,7 +33,8 @@ class AlignedArray {
     AlignedArray(const AlignedArray& other) : AlignedArray(other.m_size) {
         if (m_size > 0) std::memcpy(data(), other.data(), m_size * sizeof(T));
     }
-    AlignedArray(AlignedArray&&) noexcept = default;
+    AlignedArray(AlignedArray&& other) noexcept
+        : m_data(std::move(other.m_data)), m_size(std::exchange(other.m_size, 0)) {}
     AlignedArray& operator=(AlignedArray other) noexcept {
         std::swap(m_data, other.m_data);
         std::swap(m_size, other.m_size);

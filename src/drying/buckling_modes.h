@@ -13,11 +13,11 @@ struct BucklingModes {
     std::vector<std::vector<geometry::Vec3>> modes;  ///< per mode: [column * layers + k], largest component 1
 };
 
-/// The lowest `imperfection.modes` buckling modes of the perfect mesh, linearised about
-/// `imperfection.linearize_at`. The tangent K(s) is taken from equilibria at s0 and a little beyond, K(s) =
-/// K0 + (s - s0) K1; the modes solve (K0 + (s - s0) K1) p = 0 by Lanczos in the inner product of K0
-/// (Spectra), K0^-1 being applied by the multigrid. Throws RunError where K0 is not definite (the fruit has
-/// buckled before s0).
+/// The lowest `imperfection.modes` buckling modes of the perfect mesh, linearised between the tangents K0 and
+/// K1 of its equilibria at s0 = `imperfection.linearize_at` and s1 a little beyond: K(s) = K0 - (s - s0) /
+/// (s1 - s0) (K0 - K1) loses its definiteness at s_cr = s0 + (s1 - s0) / lambda, (K0 - K1) p = lambda K0 p.
+/// Lanczos (Spectra) in the inner product of K0, whose inverse is applied by the multigrid. Throws RunError
+/// where the fruit has buckled before s0.
 BucklingModes find_buckling_modes(const geometry::LayeredMesh& mesh, const DryingParameters& parameters,
                                   const RunContext& context);
 

@@ -7,20 +7,29 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 // Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements.
+nlohmann::json to_json(const StepRecord& r) {
+    return {r.shrinkage,    r.depth_rms,         r.elastic_energy, r.viscous_work, r.smallest_volume_ratio,
+            r.newton_steps, r.linear_iterations, r.failures};
+}
+
+StepRecord step_record_from(const nlohmann::json& r) {
+    return {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(), r.at(3).get<double>(),
+            r.at(4).get<double>(), r.at(5).get<int>(),    r.at(6).get<int>(),    r.at(7).get<int>()};
+}
+
 nlohmann::json head_of(const Checkpoint& checkpoint) {
     nlohmann::json history = nlohmann::json::array();
-    for (const StepRecord& r : checkpoint.path.history)
-        history.push_back({r.shrinkage, r.depth_rms, r.elastic_energy, r.viscous_work,
-                           r.smallest_volume_ratio, r.newton_steps, r.linear_iterations, r.failures});
+    for (const StepRecord& record : checkpoint.path.history) history.push_back(to_json(record));
     return {{"version", kVersion},
             {"shrinkage", checkpoint.path.shrinkage},
             {"next_step", checkpoint.path.next_step},
             {"past_steps", checkpoint.path.past_steps},
             {"displacements", checkpoint.path.displacements.size()},
             {"history", history},
+            {"pending", to_json(checkpoint.path.pending)},
             {"frames_done", checkpoint.frames_done},
             {"elapsed_s", checkpoint.elapsed_s}};
 }
@@ -30,10 +39,8 @@ Checkpoint from_head(const nlohmann::json& head) {
     checkpoint.path.shrinkage = head.at("shrinkage").get<double>();
     checkpoint.path.next_step = head.at("next_step").get<double>();
     checkpoint.path.past_steps = head.at("past_steps").get<std::vector<double>>();
-    for (const auto& r : head.at("history"))
-        checkpoint.path.history.push_back(
-            {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(), r.at(3).get<double>(),
-             r.at(4).get<double>(), r.at(5).get<int>(), r.at(6).get<int>(), r.at(7).get<int>()});
+    for (const auto& record : head.at("history")) checkpoint.path.history.push_back(step_record_from(record));
+    checkpoint.path.pending = step_record_from(head.at("pending"));
     checkpoint.frames_done = head.at("frames_done").get<int>();
     checkpoint.elapsed_s = head.at("elapsed_s").get<double>();
     return checkpoint;
@@ -78,7 +85,7 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_
         const auto count = head.at("displacements").get<std::size_t>();
         const std::size_t vector_bytes = vector_size * sizeof(double);
         if (count < 1 || count > 3 || bytes.size() != count * vector_bytes ||
-            checkpoint.path.past_steps.size() + 1 != count)
+            checkpoint.path.past_steps.size() + 1 != count || checkpoint.frames_done < 0)
             throw broken;
         for (std::size_t i = 0; i < count; ++i) {
             AlignedArray<double> displacement(vector_size);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 namespace windfall::drying {
 
@@ -99,7 +99,8 @@ AlignedArray<double> DryingPath::predict(double step) const {
     return result;
 }
 
-bool DryingPath::attempt(double step, const RunContext& context, StepRecord& record) {
+bool DryingPath::attempt(double step, const RunContext& context) {
+    StepRecord& record = m_state.pending;
     const AlignedArray<double>& start = m_state.displacements.front();
     const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
     m_elasticity->set_drying(m_drying.at(m_state.shrinkage + step));
@@ -148,25 +149,19 @@ void DryingPath::set_step_after(double step, const NewtonResult& result) {
 
 void DryingPath::advance(double target, const RunContext& context, const std::function<void()>& on_step) {
     constexpr double kSame = 1e-9;
-    StepRecord record;
     while (m_state.shrinkage < target - kSame) {
         context.throw_if_cancelled();
-        const double left = target - m_state.shrinkage;
-        if (!attempt(std::min(m_state.next_step, left), context, record)) {
-            if (m_state.next_step < kSmallestStep)
-                throw LostEquilibrium(fmt::format(
-                    "equilibrium was lost at shrinkage {:.4f}: no increment above {} converged. Try a larger "
-                    "solver.viscosity (now {}), a larger imperfection.amplitude (now {}), a finer mesh.n, or "
-                    "stop at "
-                    "drying.shrinkage = {:.2f}",
-                    m_state.shrinkage, kSmallestStep, m_parameters.solver.viscosity,
-                    m_parameters.imperfection.amplitude, std::floor(100 * m_state.shrinkage) / 100));
-            continue;
-        }
-        if (target - m_state.shrinkage < kSame) m_state.shrinkage = record.shrinkage = target;
-        record.depth_rms = root_mean_square_depth();
-        m_state.history.push_back(record);
-        record = StepRecord{};
+        if (m_state.next_step < kSmallestStep)
+            throw LostEquilibrium(fmt::format(
+                "equilibrium was lost at shrinkage {:.4f}: no increment above {} converged. Try a larger "
+                "solver.viscosity (now {}), a larger imperfection.amplitude (now {}), a finer mesh.n, "
+                "or stop at drying.shrinkage = {:.2f}",
+                m_state.shrinkage, kSmallestStep, m_parameters.solver.viscosity,
+                m_parameters.imperfection.amplitude, std::floor(100 * m_state.shrinkage) / 100));
+        if (!attempt(std::min(m_state.next_step, target - m_state.shrinkage), context)) continue;
+        if (target - m_state.shrinkage < kSame) m_state.shrinkage = m_state.pending.shrinkage = target;
+        m_state.pending.depth_rms = root_mean_square_depth();
+        m_state.history.push_back(std::exchange(m_state.pending, {}));
         if (on_step) on_step();
     }
 }

@@ -36,6 +36,7 @@ struct PathState {
     std::vector<double> past_steps;  ///< sizes of the last increments, latest first; at most 2
     std::vector<AlignedArray<double>> displacements;  ///< now, and after the increments before; at most 3
     std::vector<StepRecord> history;
+    StepRecord pending;  ///< attempts since the last accepted increment: counts only
 };
 
 class DryingPath {
@@ -66,7 +67,7 @@ class DryingPath {
     std::vector<double> skin_depth() const;
 
   private:
-    bool attempt(double step, const RunContext& context, StepRecord& record);
+    bool attempt(double step, const RunContext& context);
     void set_step_after(double step, const NewtonResult& result);
     AlignedArray<double> predict(double step) const;
     double viscosity() const;

@@ -114,10 +114,10 @@ class Run {
 
     nlohmann::json summary() {
         const double thickness = m_parameters.fruit.skin_thickness;
-        nlohmann::json history;
-        int newton = 0;
-        int linear = 0;
-        int failures = 0;
+        nlohmann::json history = nlohmann::json::object();
+        int newton = m_path.state().pending.newton_steps;
+        int linear = m_path.state().pending.linear_iterations;
+        int failures = m_path.state().pending.failures;
         for (const StepRecord& r : m_path.state().history) {
             history["shrinkage"].push_back(r.shrinkage);
             history["depth_rms_over_te"].push_back(r.depth_rms / thickness);

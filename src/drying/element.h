@@ -11,7 +11,7 @@ namespace windfall::drying {
 
 using HexNodes = std::array<Eigen::Vector3d, 8>;
 
-/// Fresh nodes of the element of `quad` in `layer`.
+/// Nodes of the element of `quad` in `layer`.
 HexNodes element_nodes(const geometry::LayeredMesh& mesh, std::size_t quad, int layer);
 
 double hexahedron_volume(const HexNodes& nodes);

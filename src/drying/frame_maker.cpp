@@ -18,7 +18,7 @@ struct SolidSums {
     double skin_fresh = 0, skin_now = 0;
     double smallest_total = 1e30;
     double smallest_elastic = 1e30, largest_elastic = -1e30;
-    double elastic_volume = 0, dried_volume = 0;
+    double dried_volume = 0;
     std::vector<double> volume_ratio, pressure;  ///< per vertex of the skin
 };
 

@@ -58,12 +58,15 @@ void add_modes(LayeredMesh& mesh, const DryingParameters& parameters, const RunC
 void add_imperfection(LayeredMesh& mesh, const DryingParameters& parameters, const RunContext& context) {
     switch (parameters.imperfection.kind) {
         case ImperfectionKind::Noise:
-            return add_noise(mesh, parameters);
+            add_noise(mesh, parameters);
+            break;
         case ImperfectionKind::Modes:
-            return add_modes(mesh, parameters, context);
+            add_modes(mesh, parameters, context);
+            break;
         case ImperfectionKind::None:
             return;
     }
+    geometry::check_corners(mesh, "make imperfection.amplitude smaller");
 }
 
 }  // namespace windfall::drying

@@ -92,9 +92,11 @@ LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, 
                                        double radius, const NewtonSettings& settings,
                                        const RunContext& context, bool& indefinite) {
     // Where the exact tangent is so indefinite that not even the blocks of the smoother are definite, its
-    // stress terms are scaled down, a little more each time. The direction found is still one of descent.
+    // stress terms are scaled down, a little more each time and in the end to nothing, which leaves a
+    // definite matrix. The direction found is still one of descent.
     LinearResult result;
-    for (double softening = 0; softening < 1; softening = softening == 0 ? 0.02 : 2 * softening) {
+    result.status = LinearStatus::NotDefinite;
+    for (const double softening : {0.0, 0.02, 0.04, 0.08, 0.16, 0.32, 0.64, 1.0}) {
         {
             const PhaseTimer timer(m_times.assembly_s);
             m_elasticity.assemble(at.displacement, 1 - softening, damping.factor);
@@ -104,7 +106,6 @@ LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, 
             const PhaseTimer timer(m_times.multigrid_setup_s);
             definite = m_elasticity.multigrid().set_up();
         }
-        result.status = LinearStatus::NotDefinite;
         if (definite)
             result = linear_step(at, tolerance, settings.max_linear_iterations, radius,
                                  settings.reference_force, context);
@@ -162,6 +163,7 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
     result.potentials.push_back(m_current.potential);
     double radius = settings.radius;
     double last_norm = 3 * m_current.force_norm;
+    bool rejected = false;
     const auto at_minimum = [&] {
         return m_current.force_norm < settings.tolerance * settings.reference_force;
     };
@@ -170,8 +172,11 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
         ++result.newton_steps;
         const double forcing =
             std::clamp(0.5 * std::pow(m_current.force_norm / last_norm, 1.5), kTightest, kLoosest);
+        // After a rejected step the matrix still is that of the current state; only the radius has shrunk.
         const LinearResult linear =
-            newton_step(m_current, damping, forcing, radius, settings, context, result.indefinite);
+            rejected ? linear_step(m_current, forcing, settings.max_linear_iterations, radius,
+                                   settings.reference_force, context)
+                     : newton_step(m_current, damping, forcing, radius, settings, context, result.indefinite);
         result.linear_iterations += linear.iterations;
         if (linear.status == LinearStatus::NotDefinite) break;
         if (linear.status == LinearStatus::NegativeCurvature) result.indefinite = true;
@@ -180,7 +185,8 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
         evaluate(m_trial, damping);
         const int corrections =
             correct(m_trial, m_current, step_length, damping, settings, context, result.linear_iterations);
-        if (m_trial.valid() && accepts(m_trial.potential, m_current.potential)) {
+        rejected = !(m_trial.valid() && accepts(m_trial.potential, m_current.potential));
+        if (!rejected) {
             last_norm = m_current.force_norm;
             std::swap(m_current, m_trial);
             result.potentials.push_back(m_current.potential);

@@ -52,7 +52,7 @@ void add_physics(Table& t) {
     t.add("drying.shrinkage", "1", [](auto& p) -> auto& { return p.drying.shrinkage; },
           "linear shrinkage of the flesh, 1 - theta, at the end; the flesh keeps (1 - shrinkage)^3 of its "
           "volume",
-          {.above = 0, .below = 1});
+          {.minimum = 0.001, .below = 1});
     t.add("drying.skin_fraction", "1", [](auto& p) -> auto& { return p.drying.skin_fraction; },
           "shrinkage of the skin as a fraction of the flesh's; 1: no wrinkles", {.minimum = 0, .maximum = 1});
     t.add("drying.radial", "1", [](auto& p) -> auto& { return p.drying.radial; },

@@ -63,7 +63,6 @@ BrickSurface make_brick_surface(const Lattice& cells) {
         for (int j = 0; j < cells[b]; ++j) {
             for (int i = 0; i < cells[a]; ++i) {
                 brick.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-                brick.quad_side.push_back(side);
             }
         }
     }

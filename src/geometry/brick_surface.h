@@ -16,7 +16,6 @@ struct BrickSurface {
     Lattice cells{};               ///< n_x, n_y, n_z
     std::vector<Lattice> lattice;  ///< per vertex: its integer coordinates, 0..n in each direction
     std::vector<Quad> quads;       ///< counter-clockwise seen from outside
-    std::vector<int> quad_side;    ///< per quad: 2 * axis + (0: low side, 1: high side)
 
     std::size_t vertex_count() const { return lattice.size(); }
     /// Index of the vertex at a lattice point of the surface; -1 for a point that is not on it.

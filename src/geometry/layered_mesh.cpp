@@ -51,11 +51,7 @@ std::vector<Vec3> brick_directions(const BrickSurface& brick, const Vec3& half_e
     return directions;
 }
 
-namespace {
-
-/// Triple products at the eight corners of every hexahedron must be positive for the mapping to be valid
-/// there.
-void check_corners(const LayeredMesh& mesh) {
+void check_corners(const LayeredMesh& mesh, const std::string& remedy) {
     for (const Quad& quad : mesh.brick.quads) {
         for (int k = 0; k < mesh.layers; ++k) {
             for (int c = 0; c < 4; ++c) {
@@ -68,17 +64,14 @@ void check_corners(const LayeredMesh& mesh) {
                                                 .cross(mesh.node(quad[previous], level) - corner)
                                                 .dot(along);
                     if (jacobian <= 0)
-                        throw InputError(fmt::format(
-                            "the mesh folds over near ({:.3g}, {:.3g}, {:.3g}) r_1: make the shape smoother "
-                            "(fruit.r2 .. fruit.r8), or the stone or the skin smaller there",
-                            corner.x(), corner.y(), corner.z()));
+                        throw InputError(
+                            fmt::format("the mesh folds over near ({:.3g}, {:.3g}, {:.3g}) r_1: {}",
+                                        corner.x(), corner.y(), corner.z(), remedy));
                 }
             }
         }
     }
 }
-
-}  // namespace
 
 LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, const Lattice& cells,
                               const LayerFractions& fractions) {
@@ -100,7 +93,7 @@ LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, co
             mesh.nodes[c * mesh.layers + k] = radius * direction;
         }
     }
-    check_corners(mesh);
+    check_corners(mesh, "make the stone or the skin smaller there");
     return mesh;
 }
 
@@ -138,11 +131,19 @@ std::vector<Vec3> surface_points(const FruitShape& shape, const BrickSurface& br
     return points;
 }
 
-int multiple_of_8(double n) { return std::max(8, 8 * static_cast<int>(std::lround(n / 8))); }
-
 /// Up to a fifth of a step is rounded down: a mesh 3 % coarser than asked for beats one of 1.3 times the
-/// size.
-int multiple_of_8_above(double n) { return std::max(8, 8 * static_cast<int>(std::ceil(n / 8 - 0.2))); }
+/// size. Large meshes take steps of 32, so that the multigrid's coarsest level stays small.
+int cells_above(double n) {
+    constexpr double kLarge = 128;
+    constexpr int kMost = 512;
+    if (!(n <= kMost))
+        throw InputError(fmt::format(
+            "elements small enough would need mesh.n = {:.0f}, more than {}: make fruit.skin_thickness, "
+            "material.gamma or mesh.edge_over_te larger, or set mesh.n",
+            n, kMost));
+    const int step = n > kLarge ? 32 : 8;
+    return std::max(8, step * static_cast<int>(std::ceil(n / step - 0.2)));
+}
 
 /// n such that a brick n x (m n) x n covers the surface with quads of mean edge `edge`.
 double cells_for_edge(double area, double edge, double elongation) {
@@ -167,7 +168,8 @@ double best_elongation(const FruitShape& shape) {
 
 Lattice brick_for_n(const FruitShape& shape, int n, double elongation) {
     const double m = elongation > 0 ? elongation : best_elongation(shape);
-    return {n, multiple_of_8(m * n), n};
+    const int step = n > 128 && n % 32 == 0 ? 32 : 8;
+    return {n, std::max(step, step * static_cast<int>(std::lround(m * n / step))), n};
 }
 
 Lattice brick_for_edge(const FruitShape& shape, double edge, double elongation) {
@@ -176,7 +178,7 @@ Lattice brick_for_edge(const FruitShape& shape, double edge, double elongation) 
     const std::vector<Vec3> points = surface_points(shape, brick);
     double area = 0;
     for (const double a : vertex_areas(points, {brick.quads.begin(), brick.quads.end()})) area += a;
-    return brick_for_n(shape, multiple_of_8_above(cells_for_edge(area, edge, m)), m);
+    return brick_for_n(shape, cells_above(cells_for_edge(area, edge, m)), m);
 }
 
 }  // namespace windfall::geometry

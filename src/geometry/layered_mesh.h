@@ -1,6 +1,7 @@
 #pragma once
 // A fruit as a solid: columns of hexahedra from the stone to the skin, one column under every vertex of a
 // brick's surface. Lines run along polar radii, so that star-shaped bodies cannot fold.
+#include <string>
 #include <vector>
 
 #include "geometry/brick_surface.h"
@@ -44,7 +45,11 @@ struct LayeredMesh {
 /// the given half extents: equal angles on every side of the brick (tan map), stretched to the ellipsoid.
 std::vector<Vec3> brick_directions(const BrickSurface& brick, const Vec3& half_extents);
 
-/// Throws InputError where a hexahedron would not have a positive volume at each corner.
+/// Throws InputError, with the place and the remedy, where a hexahedron does not have a positive triple
+/// product at each of its corners.
+void check_corners(const LayeredMesh& mesh, const std::string& remedy);
+
+/// Throws InputError where `check_corners` does.
 LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, const Lattice& cells,
                               const LayerFractions& fractions);
 

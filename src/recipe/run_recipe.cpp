@@ -58,14 +58,15 @@ take::TakeInfo take_info(const Recipe& recipe) {
 bool is_complete(const Recipe& recipe, const std::filesystem::path& folder) {
     const take::TakeReader take(folder);
     return take.status() == take::TakeStatus::Complete && take.info().process == recipe.process &&
-           take.info().parameters == take_info(recipe).parameters;
+           take.info().parameters == take_info(recipe).parameters &&
+           take.info().look == take_info(recipe).look && take.info().title == recipe.title;
 }
 
 void run(const Recipe& recipe, take::TakeWriter& writer, const RunContext& context,
          const std::function<void(const take::Frame&)>& on_frame) {
     TellingSink sink(writer, on_frame);
-    const std::optional<std::vector<std::byte>> checkpoint = writer.checkpoint();
     try {
+        const std::optional<std::vector<std::byte>> checkpoint = writer.checkpoint();
         drying::run(recipe.drying, sink, context,
                     checkpoint ? std::span<const std::byte>(*checkpoint) : std::span<const std::byte>());
     } catch (const Cancelled& error) {

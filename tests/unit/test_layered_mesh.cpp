@@ -78,16 +78,24 @@ TEST(LayeredMesh, EdgesAreEvenOnRoundAndLongFruit) {
     }
 }
 
-TEST(LayeredMesh, FoldedMeshesAreRefused) {
-    // A crease this sharp passes as an outline but not as hexahedra.
-    class Crumpled final : public FruitShape {
-      public:
-        double flesh_radius(const Vec3& d) const override { return 1 + 0.6 * std::sin(40 * d.x()); }
-        double stone_radius(const Vec3&) const override { return 0.39; }
-        Vec3 half_extents() const override { return Vec3::Ones(); }
-    };
-    EXPECT_NO_THROW(make_layered_mesh(SphereShape(1, 0.4), 0.1, {8, 8, 8}, graded_layers(6, 2, 1)));
-    EXPECT_THROW(make_layered_mesh(Crumpled(), -0.5, {8, 8, 8}, graded_layers(6, 2, 1)), InputError);
+TEST(LayeredMesh, FoldedMeshesAreRefusedWithPlaceAndRemedy) {
+    LayeredMesh mesh = make_layered_mesh(SphereShape(1, 0.4), 0.1, {8, 8, 8}, graded_layers(6, 2, 1));
+    EXPECT_NO_THROW(check_corners(mesh, "unused"));
+    mesh.nodes[5 * 8 + 3] += 0.5 * mesh.directions[5];  // above the nodes over it
+    try {
+        check_corners(mesh, "be gentle");
+        FAIL() << "a folded mesh was taken";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("near ("), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("be gentle"), std::string::npos);
+    }
+}
+
+TEST(LayeredMesh, MeshesBeyondReasonAreRefusedBeforeTheyAreMade) {
+    EXPECT_THROW(brick_for_edge(SphereShape(1, 0.4), 1e-4, 0), InputError);
+    const Lattice fine = brick_for_edge(SphereShape(1, 0.4), 0.0078, 0);
+    EXPECT_EQ(fine[0] % 32, 0);
+    EXPECT_EQ(fine[1] % 32, 0);
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST_F(RecipeLoad, RefusesWhatIsOutOfRange) {
     EXPECT_THAT(complaint(write("[material]\ngamma = -10.0\n")),
                 HasSubstr(":2:1: material.gamma must be > 0"));
     EXPECT_THAT(complaint(write("[drying]\nshrinkage = 1.0\n")),
-                HasSubstr(":2:1: drying.shrinkage must be > 0 and < 1"));
+                HasSubstr(":2:1: drying.shrinkage must be >= 0.001 and < 1"));
     EXPECT_THAT(complaint(write("[fruit]\nr4 = nan\n")), HasSubstr(":2:1: fruit.r4 must be > 0"));
     EXPECT_THAT(complaint(write("[fruit]\nr4 = inf\n")), HasSubstr(":2:1: fruit.r4 must be > 0"));
     EXPECT_THAT(complaint(write("[output]\nshrinkages = [0.1, nan]\n")),

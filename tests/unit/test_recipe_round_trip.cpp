@@ -98,8 +98,9 @@ TEST(Schema, TellsRangeDefaultAndType) {
         if (parameter.at("key") != "drying.shrinkage") continue;
         EXPECT_EQ(parameter.at("type"), "number");
         EXPECT_EQ(parameter.at("group"), "drying");
-        EXPECT_EQ(parameter.at("minimum"), 0);
-        EXPECT_EQ(parameter.at("minimum_excluded"), true);
+        EXPECT_EQ(parameter.at("minimum"), 0.001);
+        EXPECT_EQ(parameter.at("minimum_excluded"), false);
+        EXPECT_EQ(parameter.at("maximum_excluded"), true);
         EXPECT_EQ(parameter.at("maximum"), 1);
         EXPECT_EQ(parameter.at("default"), 0.3);
         EXPECT_EQ(parameter.at("needs_run"), true);

@@ -4,7 +4,7 @@
 // scatters within a register. Everything here works on a range of columns or quads; who calls sees to it that
 // ranges that run at the same time do not touch the same column (see column_order.h).
 //
-// L is the number of layers, 8 or 16. Arrays are 64-byte aligned; "[column][3][L]" is row-major, lanes
+// L is the number of layers, 8 or 16. Arrays are 128-byte aligned; "[column][3][L]" is row-major, lanes
 // fastest.
 #include <cstdint>
 
