@@ -35,7 +35,11 @@ class AlignedArray {
     }
     AlignedArray(AlignedArray&& other) noexcept
         : m_data(std::move(other.m_data)), m_size(std::exchange(other.m_size, 0)) {}
-    AlignedArray& operator=(AlignedArray other) noexcept {
+    AlignedArray& operator=(const AlignedArray& other) {
+        if (this != &other) *this = AlignedArray(other);
+        return *this;
+    }
+    AlignedArray& operator=(AlignedArray&& other) noexcept {
         std::swap(m_data, other.m_data);
         std::swap(m_size, other.m_size);
         return *this;

@@ -46,6 +46,12 @@ Checkpoint from_head(const nlohmann::json& head) {
     return checkpoint;
 }
 
+[[noreturn]] void refuse() {
+    throw InputError(
+        "the take's checkpoint does not fit this program or this recipe: run again with --force to begin "
+        "anew");
+}
+
 }  // namespace
 
 std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
@@ -68,25 +74,22 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
 }
 
 Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size) {
-    const InputError broken(
-        "the take's checkpoint does not fit this program or this recipe: run again with --force to begin "
-        "anew");
     std::uint64_t length = 0;
-    if (bytes.size() < sizeof(length)) throw broken;
+    if (bytes.size() < sizeof(length)) refuse();
     std::memcpy(&length, bytes.data(), sizeof(length));
     bytes = bytes.subspan(sizeof(length));
-    if (length > bytes.size()) throw broken;
+    if (length > bytes.size()) refuse();
     try {
         const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
         const auto head = nlohmann::json::from_cbor(begin, begin + length);
         bytes = bytes.subspan(length);
-        if (head.at("version") != kVersion) throw broken;
+        if (head.at("version") != kVersion) refuse();
         Checkpoint checkpoint = from_head(head);
         const auto count = head.at("displacements").get<std::size_t>();
         const std::size_t vector_bytes = vector_size * sizeof(double);
         if (count < 1 || count > 3 || bytes.size() != count * vector_bytes ||
             checkpoint.path.past_steps.size() + 1 != count || checkpoint.frames_done < 0)
-            throw broken;
+            refuse();
         for (std::size_t i = 0; i < count; ++i) {
             AlignedArray<double> displacement(vector_size);
             std::memcpy(displacement.data(), bytes.data() + i * vector_bytes, vector_bytes);
@@ -94,7 +97,7 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_
         }
         return checkpoint;
     } catch (const nlohmann::json::exception&) {
-        throw broken;
+        refuse();
     }
 }
 

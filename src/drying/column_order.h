@@ -67,8 +67,10 @@ void for_schedule(const Schedule& schedule, const Body& body) {
 
 template <class Body>
 void for_schedule_reversed(const Schedule& schedule, const Body& body) {
-    for (auto ranges = schedule.rbegin(); ranges != schedule.rend(); ++ranges)
-        for_ranges(*ranges, [&](std::size_t i) { body((*ranges)[i]); });
+    for (std::size_t colour = schedule.size(); colour-- > 0;) {
+        const std::vector<Range>& ranges = schedule[colour];
+        for_ranges(ranges, [&](std::size_t i) { body(ranges[i]); });
+    }
 }
 
 }  // namespace windfall::drying

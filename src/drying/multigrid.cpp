@@ -73,10 +73,8 @@ struct Multigrid::Level {
     }
 
     std::size_t columns() const { return order.vertex_of_solver.size(); }
-    MatrixArrays matrix() const {
-        // The kernels' views are not const; the matrix is only written through views of a level that is not.
-        return {order.lower_begin.data(), order.lower_column.data(), const_cast<float*>(diagonal.data()),
-                const_cast<float*>(lower.data())};
+    MatrixArrays matrix() {
+        return {order.lower_begin.data(), order.lower_column.data(), diagonal.data(), lower.data()};
     }
     UpperArrays upper() const {
         return {order.upper_begin.data(), order.upper_column.data(), order.upper_entry.data()};
@@ -161,7 +159,7 @@ bool Multigrid::set_up_smoother(Level& level) {
 bool Multigrid::set_up() {
     if (!set_up_smoother(*m_levels.front())) return false;
     for (std::size_t l = 1; l < m_levels.size(); ++l) {
-        const Level& fine = *m_levels[l - 1];
+        Level& fine = *m_levels[l - 1];
         Level& coarse = *m_levels[l];
         constexpr std::size_t kBlock = 32;
         parallel_blocks(coarse.columns(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -173,7 +171,7 @@ bool Multigrid::set_up() {
     return true;
 }
 
-void Multigrid::product(const Level& level, const float* x, float* y) const {
+void Multigrid::product(Level& level, const float* x, float* y) const {
     const MatrixArrays matrix = level.matrix();
     for_schedule(level.order.columns, [&](Range range) { m_table.product(matrix, x, y, range); });
 }

@@ -46,7 +46,7 @@ class Multigrid {
     void cycle(std::size_t level, const float* b, float* x);
     void smooth(Level& level, const float* b, float* x);
     void solve_coarsest(const float* b, float* x);
-    void product(const Level& level, const float* x, float* y) const;
+    void product(Level& level, const float* x, float* y) const;
 
     int m_layers;
     const KernelTable& m_table;

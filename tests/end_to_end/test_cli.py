@@ -381,6 +381,12 @@ class TinyRuns(CommandLine):
         self.fail_with(2, "export", "x.take", "--to", "fbx")
         self.fail_with(2, "export", "x.take", "--to", "obj,ply", "-o", "both.obj")
         self.fail_with(2, "export", "x.take", "--to", "obj", "--scale", 0, "-o", "flat.obj")
+        self.succeed("export", "x.take", "--to", "inp", "-o", "fruit.inp")
+        deck = (self.folder / "fruit.inp").read_text()
+        self.assertIn("*ELEMENT, TYPE=C3D8, ELSET=SKIN\n", deck)
+        self.assertTrue(deck.endswith("*END STEP\n"))
+        self.fail_with(2, "export", "x.take", "--to", "inp", "-o", "fruit.inp")
+        self.fail_with(2, "export", "x.take", "--to", "inp", "-o", "fruit.obj")
 
     def test_show(self):
         self.dry("-o", "x.take")

@@ -57,7 +57,7 @@ inline take::Frame wrinkled(const take::TakeMesh& mesh, int index, double shrink
             picture::smooth_noise(3.6F * place, 99) + 0.35F * picture::smooth_noise(6.1F * place, 98);
         const float groove = std::exp(-14 * noise * noise);
         const float depth = amplitude * (1.9F * groove - 0.7F);
-        moved.positions.push_back((1 - static_cast<float>(shrinkage)) * place - depth * direction);
+        moved.positions.emplace_back((1 - static_cast<float>(shrinkage)) * place - depth * direction);
         moved.attributes[0].values.push_back(depth);
     }
     frame.meshes.push_back(moved);

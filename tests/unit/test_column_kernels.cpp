@@ -99,14 +99,14 @@ Eigen::VectorXd to_eigen(const AlignedArray<float>& a) {
 
 class ColumnKernels : public testing::TestWithParam<int> {
   protected:
-    const KernelTable& table = kernels(GetParam());
+    const KernelTable& m_table = kernels(GetParam());
 };
 
 TEST_P(ColumnKernels, ProductIsThatOfTheSymmetricMatrix) {
     RandomLevel level({3, 4, 2}, GetParam());
     const AlignedArray<float> x = random_floats(level.size(), 1);
     AlignedArray<float> y(x.size());
-    table.product(level.matrix(), x.data(), y.data(), {0, level.order.column_count()});
+    m_table.product(level.matrix(), x.data(), y.data(), {0, level.order.column_count()});
     const Eigen::VectorXd expected = level.dense * to_eigen(x);
     EXPECT_LT((to_eigen(y) - expected).norm(), 1e-5 * expected.norm());
 }
@@ -116,7 +116,7 @@ TEST_P(ColumnKernels, InvertedBlocksAreInverses) {
     const int layers = GetParam();
     const int block_size = 3 * layers;
     AlignedArray<float> inverse(static_cast<std::size_t>(level.order.column_count()) * 9 * layers * layers);
-    ASSERT_TRUE(table.invert_diagonal(level.matrix(), inverse.data(), {0, level.order.column_count()}));
+    ASSERT_TRUE(m_table.invert_diagonal(level.matrix(), inverse.data(), {0, level.order.column_count()}));
     for (std::int32_t c = 0; c < level.order.column_count(); ++c) {
         const Eigen::Index start = level.unknown(c, 0, 0);
         const Eigen::MatrixXd exact = level.dense.block(start, start, block_size, block_size).inverse();
@@ -134,13 +134,13 @@ TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
     const Range all = {0, level.order.column_count()};
     AlignedArray<float> inverse(static_cast<std::size_t>(all.end) * 9 * layers * layers);
     AlignedArray<std::uint16_t> packed(inverse.size() + level.lower.size());
-    ASSERT_TRUE(table.invert_diagonal(level.matrix(), inverse.data(), all));
+    ASSERT_TRUE(m_table.invert_diagonal(level.matrix(), inverse.data(), all));
     const SmootherArrays smoother = {packed.data(), 64, 4096};
-    table.pack(level.matrix(), inverse.data(), smoother, all);
+    m_table.pack(level.matrix(), inverse.data(), smoother, all);
     const AlignedArray<float> b = random_floats(level.size(), 2);
     AlignedArray<float> x(b.size());
     AlignedArray<float> residual(b.size());
-    table.sweep_forward(level.matrix(), smoother, b.data(), x.data(), residual.data(), all);
+    m_table.sweep_forward(level.matrix(), smoother, b.data(), x.data(), residual.data(), all);
 
     // (L + D) x = b; what is left over is -U x.
     const int block = 3 * layers;
@@ -153,7 +153,7 @@ TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
     EXPECT_LT((to_eigen(residual) / 64 - left).norm(), 5e-3 * left.norm());
 
     residual.set_zero();
-    table.sweep_backward(level.matrix(), smoother, b.data(), x.data(), residual.data(), all);
+    m_table.sweep_backward(level.matrix(), smoother, b.data(), x.data(), residual.data(), all);
     const Eigen::MatrixXd upper_part = lower_part.transpose();
     const Eigen::VectorXd backward =
         upper_part.fullPivLu().solve(to_eigen(b) - (level.dense - upper_part) * forward);
@@ -195,21 +195,21 @@ TEST_P(ColumnKernels, CoarseMatrixIsGalerkins) {
                                      parent_count.data()};
     const UpperArrays upper = {fine.order.upper_begin.data(), fine.order.upper_column.data(),
                                fine.order.upper_entry.data()};
-    table.galerkin(fine.matrix(), upper, transfer, coarse.matrix(), {0, coarse.order.column_count()});
+    m_table.galerkin(fine.matrix(), upper, transfer, coarse.matrix(), {0, coarse.order.column_count()});
     const Eigen::MatrixXd expected = prolongation.transpose() * fine.dense * prolongation;
     EXPECT_LT((coarse.to_dense() - expected).norm(), 1e-5 * expected.norm());
 
     const AlignedArray<float> residual = random_floats(fine.size(), 3);
     AlignedArray<float> coarse_b(static_cast<std::size_t>(coarse.size()));
-    table.restrict_residual(transfer, 0.5F, residual.data(), coarse_b.data(),
-                            {0, coarse.order.column_count()});
+    m_table.restrict_residual(transfer, 0.5F, residual.data(), coarse_b.data(),
+                              {0, coarse.order.column_count()});
     EXPECT_LT((to_eigen(coarse_b) - 0.5 * prolongation.transpose() * to_eigen(residual)).norm(), 1e-4);
 
     const AlignedArray<float> coarse_x = random_floats(coarse.size(), 4);
     AlignedArray<float> x = random_floats(fine.size(), 5);
     const Eigen::VectorXd prolonged = to_eigen(x) + prolongation * to_eigen(coarse_x);
     AlignedArray<float> cleared = residual;
-    table.prolong(transfer, coarse_x.data(), x.data(), cleared.data(), {0, fine.order.column_count()});
+    m_table.prolong(transfer, coarse_x.data(), x.data(), cleared.data(), {0, fine.order.column_count()});
     EXPECT_LT((to_eigen(x) - prolonged).norm(), 1e-4);
     EXPECT_EQ(to_eigen(cleared).norm(), 0);
 }

@@ -16,7 +16,7 @@
 namespace windfall::drying {
 namespace {
 
-DryingPath fruit(DryingParameters parameters) {
+DryingPath fruit(const DryingParameters& parameters) {
     const auto shape = make_shape(parameters.fruit);
     geometry::LayeredMesh mesh = make_mesh(parameters, *shape);
     add_imperfection(mesh, parameters, {});
