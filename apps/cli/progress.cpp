@@ -52,7 +52,10 @@ class PlainPrinter final : public TextPrinter {
 
 class BarPrinter final : public TextPrinter {
   public:
+    BarPrinter() = default;
     ~BarPrinter() override { clear(); }
+    BarPrinter(const BarPrinter&) = delete;
+    BarPrinter& operator=(const BarPrinter&) = delete;
     void warning(const std::string& text) override {
         clear();
         TextPrinter::warning(text);
