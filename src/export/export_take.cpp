@@ -101,7 +101,7 @@ std::vector<Vec3> in_metres(const take::FrameMesh& mesh, double metres, int fram
     std::vector<Vec3> positions;
     positions.reserve(mesh.positions.size());
     for (const auto& p : mesh.positions) {
-        positions.push_back(metres * p.cast<double>());
+        positions.emplace_back(metres * p.cast<double>());
         if (!positions.back().allFinite())
             throw InputError(fmt::format(
                 "frame {} has vertices that are nowhere (not a number); make the take again", frame));
@@ -132,7 +132,7 @@ MeshToExport mesh_to_export(const take::TakeMesh& fresh, const take::Frame& fram
 
 std::vector<Eigen::Vector3f> to_floats(const std::vector<Vec3>& vectors) {
     std::vector<Eigen::Vector3f> floats;
-    for (const Vec3& v : vectors) floats.push_back(v.cast<float>());
+    for (const Vec3& v : vectors) floats.emplace_back(v.cast<float>());
     return floats;
 }
 

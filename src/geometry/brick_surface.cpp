@@ -59,7 +59,8 @@ BrickSurface make_brick_surface(const Lattice& cells) {
                 grid[j * (cells[a] + 1) + i] = vertex;
             }
         }
-        const auto at = [&](int i, int j) { return grid[j * (cells[a] + 1) + i]; };
+        const int row = cells[a] + 1;
+        const auto at = [&grid, row](int i, int j) { return grid[j * row + i]; };
         for (int j = 0; j < cells[b]; ++j) {
             for (int i = 0; i < cells[a]; ++i) {
                 brick.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
@@ -76,7 +77,8 @@ std::vector<std::array<Vec2, 4>> brick_atlas(const BrickSurface& brick) {
     std::size_t q = 0;
     for (int side = 0; side < 6; ++side) {
         const auto [a, b] = side_axes(side);
-        const Vec2 origin(side % 3 * chart_size.x() + kMargin, side / 3 * chart_size.y() + kMargin);
+        const int chart_row = side / 3;
+        const Vec2 origin(side % 3 * chart_size.x() + kMargin, chart_row * chart_size.y() + kMargin);
         const Vec2 extent = chart_size - Vec2::Constant(2 * kMargin);
         // Texels keep their aspect: the longer side of the chart fills its cell.
         const double longest = std::max(brick.cells[a] / extent.x(), brick.cells[b] / extent.y());
