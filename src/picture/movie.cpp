@@ -3,19 +3,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
-
-extern char** environ;
 
 namespace windfall::picture {
 namespace {
@@ -94,6 +93,9 @@ class Child {
 /// Removes a file when it goes out of scope.
 struct Removed {
     std::filesystem::path path;
+    explicit Removed(std::filesystem::path file) : path(std::move(file)) {}
+    Removed(const Removed&) = delete;
+    Removed& operator=(const Removed&) = delete;
     ~Removed() {
         std::error_code ignored;
         std::filesystem::remove(path, ignored);

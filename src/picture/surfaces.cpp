@@ -15,6 +15,9 @@ struct Surfaces::Handles {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
+    Handles() = default;
+    Handles(const Handles&) = delete;
+    Handles& operator=(const Handles&) = delete;
     ~Handles() {
         if (scene != nullptr) rtcReleaseScene(scene);
         if (device != nullptr) rtcReleaseDevice(device);
