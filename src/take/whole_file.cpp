@@ -126,9 +126,12 @@ std::vector<std::byte> read_whole_file(const std::filesystem::path& path, std::u
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) cannot_read(path, errno);
     const struct Closer {
-        int descriptor;
+        explicit Closer(int opened) : descriptor(opened) {}
+        Closer(const Closer&) = delete;
+        Closer& operator=(const Closer&) = delete;
         ~Closer() { ::close(descriptor); }
-    } closer{descriptor};
+        int descriptor;
+    } closer(descriptor);
 
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) cannot_read(path, errno);
