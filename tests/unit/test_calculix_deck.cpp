@@ -46,36 +46,36 @@ const std::vector<std::string>& lines(const std::multimap<std::string, std::vect
 
 class CalculixDeck : public testing::Test {
   protected:
-    CalculixDeck() : mesh(test::small_sphere(4, 8)) {
-        parameters.drying.shrinkage = 0.05;
-        parameters.drying.skin_fraction = 0.2;
-        parameters.material.bulk_ratio = 200;
-        parameters.material.gamma = 10;
+    CalculixDeck() : m_mesh(test::small_sphere(4, 8)) {
+        m_parameters.drying.shrinkage = 0.05;
+        m_parameters.drying.skin_fraction = 0.2;
+        m_parameters.material.bulk_ratio = 200;
+        m_parameters.material.gamma = 10;
     }
-    geometry::LayeredMesh mesh;
-    DryingParameters parameters;
+    geometry::LayeredMesh m_mesh;
+    DryingParameters m_parameters;
 };
 
 TEST_F(CalculixDeck, NodesAreTheMeshes) {
-    const auto deck = blocks(calculix_deck(mesh, parameters));
+    const auto deck = blocks(calculix_deck(m_mesh, m_parameters));
     const auto& nodes = lines(deck, "*NODE, NSET=ALL");
-    ASSERT_EQ(nodes.size(), mesh.columns() * 9);
-    for (std::size_t v = 0; v < mesh.columns(); ++v)
-        for (int level = 0; level <= mesh.layers; ++level) {
-            const int id = calculix_node(mesh, v, level);
+    ASSERT_EQ(nodes.size(), m_mesh.columns() * 9);
+    for (std::size_t v = 0; v < m_mesh.columns(); ++v)
+        for (int level = 0; level <= m_mesh.layers; ++level) {
+            const int id = calculix_node(m_mesh, v, level);
             const auto row = numbers(nodes[static_cast<std::size_t>(id - 1)]);
             ASSERT_EQ(row.size(), 4U);
             EXPECT_EQ(row[0], id);
-            EXPECT_LT((geometry::Vec3(row[1], row[2], row[3]) - mesh.node(v, level)).norm(), 1e-12);
+            EXPECT_LT((geometry::Vec3(row[1], row[2], row[3]) - m_mesh.node(v, level)).norm(), 1e-12);
         }
 }
 
 TEST_F(CalculixDeck, ElementsFillTheBodyWithPositiveVolume) {
-    const auto deck = blocks(calculix_deck(mesh, parameters));
+    const auto deck = blocks(calculix_deck(m_mesh, m_parameters));
     const auto& flesh = lines(deck, "*ELEMENT, TYPE=C3D8, ELSET=FLESH");
     const auto& skin = lines(deck, "*ELEMENT, TYPE=C3D8, ELSET=SKIN");
-    EXPECT_EQ(flesh.size(), mesh.brick.quads.size() * 6);
-    EXPECT_EQ(skin.size(), mesh.brick.quads.size() * 2);
+    EXPECT_EQ(flesh.size(), m_mesh.brick.quads.size() * 6);
+    EXPECT_EQ(skin.size(), m_mesh.brick.quads.size() * 2);
     const auto& nodes = lines(deck, "*NODE, NSET=ALL");
     const auto position = [&](double id) {
         const auto row = numbers(nodes[static_cast<std::size_t>(id) - 1]);
@@ -97,30 +97,30 @@ TEST_F(CalculixDeck, ElementsFillTheBodyWithPositiveVolume) {
             volume += hexahedron_volume(corners);
         }
     double expected = 0;
-    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q)
-        for (int k = 0; k < mesh.layers; ++k) expected += hexahedron_volume(element_nodes(mesh, q, k));
+    for (std::size_t q = 0; q < m_mesh.brick.quads.size(); ++q)
+        for (int k = 0; k < m_mesh.layers; ++k) expected += hexahedron_volume(element_nodes(m_mesh, q, k));
     EXPECT_NEAR(volume, expected, 1e-9);
-    EXPECT_EQ(uses.size(), mesh.brick.quads.size() * 8);
+    EXPECT_EQ(uses.size(), m_mesh.brick.quads.size() * 8);
     EXPECT_EQ(uses.begin()->first, 1);
     EXPECT_EQ(uses.rbegin()->first, static_cast<int>(uses.size()));
 }
 
 TEST_F(CalculixDeck, StoneIsFixedAndTheSkinPrinted) {
-    const auto deck = blocks(calculix_deck(mesh, parameters));
+    const auto deck = blocks(calculix_deck(m_mesh, m_parameters));
     const auto& stone = lines(deck, "*NSET, NSET=STONE");
     const auto& skin = lines(deck, "*NSET, NSET=SKIN_SURFACE");
-    ASSERT_EQ(stone.size(), mesh.columns());
-    ASSERT_EQ(skin.size(), mesh.columns());
-    for (std::size_t v = 0; v < mesh.columns(); ++v) {
-        EXPECT_EQ(std::stoi(stone[v]), calculix_node(mesh, v, 0));
-        EXPECT_EQ(std::stoi(skin[v]), calculix_node(mesh, v, mesh.layers));
+    ASSERT_EQ(stone.size(), m_mesh.columns());
+    ASSERT_EQ(skin.size(), m_mesh.columns());
+    for (std::size_t v = 0; v < m_mesh.columns(); ++v) {
+        EXPECT_EQ(std::stoi(stone[v]), calculix_node(m_mesh, v, 0));
+        EXPECT_EQ(std::stoi(skin[v]), calculix_node(m_mesh, v, m_mesh.layers));
     }
     EXPECT_EQ(lines(deck, "*BOUNDARY"), std::vector<std::string>{"STONE,1,3"});
     EXPECT_EQ(deck.count("*STEP, NLGEOM, INC=100000"), 1U);
 }
 
 TEST_F(CalculixDeck, LawAndShrinkageAreTheRecipes) {
-    const std::string text = calculix_deck(mesh, parameters);
+    const std::string text = calculix_deck(m_mesh, m_parameters);
     const auto deck = blocks(text);
     const auto law = deck.equal_range("*HYPERELASTIC, NEO HOOKE");
     ASSERT_EQ(std::distance(law.first, law.second), 2);
@@ -139,9 +139,9 @@ TEST_F(CalculixDeck, LawAndShrinkageAreTheRecipes) {
 }
 
 TEST_F(CalculixDeck, AnisotropicDryingIsRefused) {
-    parameters.drying.meridional = 0.5;
+    m_parameters.drying.meridional = 0.5;
     try {
-        calculix_deck(mesh, parameters);
+        calculix_deck(m_mesh, m_parameters);
         FAIL() << "anisotropic drying was accepted";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("isotropic"));

@@ -312,9 +312,9 @@ TEST(ExportGlb, AnimationShowsOneFrameAfterTheOther) {
     std::vector<MorphShape> later(2);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const Eigen::Vector3f p = mesh.positions[v].cast<float>(), n = mesh.normals[v].cast<float>();
-        later[0].positions.push_back(0.5f * p);
+        later[0].positions.emplace_back(0.5f * p);
         later[0].normals.push_back(n);
-        later[1].positions.push_back(v == 2 ? Eigen::Vector3f(9, 8, 7) : p);  // one vertex moves
+        later[1].positions.emplace_back(v == 2 ? Eigen::Vector3f(9, 8, 7) : p);  // one vertex moves
         later[1].normals.push_back(v == 2 ? Eigen::Vector3f(0, 0, 1) : n);
     }
     const auto model = loaded(glb_bytes(mesh, {}, later, 25));
@@ -353,8 +353,8 @@ TEST(ExportGlb, AFrameThatIsTheFirstGivesAnAnimationAllTheSame) {
     const MeshToExport mesh = sample(false);
     MorphShape still;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        still.positions.push_back(mesh.positions[v].cast<float>());
-        still.normals.push_back(mesh.normals[v].cast<float>());
+        still.positions.emplace_back(mesh.positions[v].cast<float>());
+        still.normals.emplace_back(mesh.normals[v].cast<float>());
     }
     const auto model = loaded(glb_bytes(mesh, {}, std::vector<MorphShape>{still}));
     const auto moved = floats(model, model.meshes[0].primitives[0].targets[0].at("POSITION"));

@@ -7,6 +7,7 @@
 #include "picture/image.h"
 #include "picture/look.h"
 #include "picture/show_take.h"
+#include "support/temporary_folder.h"
 #include "synthetic_fruit.h"
 #include "take/take_writer.h"
 #include "take/whole_file.h"
@@ -19,10 +20,6 @@ namespace fs = std::filesystem;
 class PictureShow : public testing::Test {
   protected:
     PictureShow() {
-        m_folder =
-            fs::temp_directory_path() /
-            (std::string("windfall-show-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(m_folder);
         const auto mesh = test::cubed_sphere(6);
         take::TakeInfo info;
         info.process = "drying";
@@ -36,12 +33,12 @@ class PictureShow : public testing::Test {
         m_options.size = 16;
         m_options.samples = 1;
     }
-    ~PictureShow() override { fs::remove_all(m_folder); }
 
     ShowOutput show() const { return show_take(take::TakeReader(m_folder), m_options, {}); }
     static Image8 read(const fs::path& file) { return decode_png(take::read_whole_file(file, 1U << 24U)); }
 
-    fs::path m_folder;
+    const TemporaryFolder m_temporary;
+    const fs::path m_folder = m_temporary.path() / "test.take";
     ShowOptions m_options;
 };
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "recipe/presets.h"
 #include "recipe/recipe.h"
+#include "support/temporary_folder.h"
 
 namespace windfall::recipe {
 namespace {
@@ -19,11 +20,8 @@ using testing::Not;
 /// Recipe files of one test, in a folder that goes with it.
 class RecipeLoad : public testing::Test {
   protected:
-    RecipeLoad() { fs::create_directories(m_folder); }
-    ~RecipeLoad() override { fs::remove_all(m_folder); }
-
     std::string write(const std::string& text, const std::string& name = "fruit.toml") const {
-        const fs::path path = m_folder / name;
+        const fs::path path = m_folder.path() / name;
         std::ofstream(path, std::ios::binary) << text;
         return path.string();
     }
@@ -38,9 +36,7 @@ class RecipeLoad : public testing::Test {
         return "";
     }
 
-    const fs::path m_folder =
-        fs::path(testing::TempDir()) /
-        (std::string("windfall-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder m_folder;
 };
 
 TEST_F(RecipeLoad, TakesDefaultsWhereTheFileIsSilent) {
@@ -184,8 +180,8 @@ TEST_F(RecipeLoad, TellsWhereTomlIsBroken) {
 }
 
 TEST_F(RecipeLoad, RefusesFilesThatAreNoRecipes) {
-    EXPECT_THAT(complaint((m_folder / "none.toml").string()), HasSubstr("none.toml: No such file"));
-    EXPECT_THAT(complaint(m_folder.string()), HasSubstr("is a folder"));
+    EXPECT_THAT(complaint((m_folder.path() / "none.toml").string()), HasSubstr("none.toml: No such file"));
+    EXPECT_THAT(complaint(m_folder.path().string()), HasSubstr("is a folder"));
     EXPECT_THAT(complaint(write(std::string((1 << 20) + 1, '#'))), HasSubstr("is bigger than 1 MiB"));
     EXPECT_EQ(complaint(write(std::string(1 << 20, '#'))), "") << "exactly 1 MiB is allowed";
     EXPECT_THAT(complaint("/dev/zero"), HasSubstr("is bigger than 1 MiB"));

@@ -97,7 +97,7 @@ TEST(SmoothSurface, ShrinkingAndBendingAreNoWrinkles) {
     const geometry::SlowField slow(sphere.rest, areas);
     std::vector<Vec3> bent;
     for (const Vec3& p : sphere.rest)
-        bent.push_back(Vec3(0.6 * p.x(), 0.8 * p.y() + 0.1 * p.x() * p.x(), 0.7 * p.z()));
+        bent.emplace_back(0.6 * p.x(), 0.8 * p.y() + 0.1 * p.x() * p.x(), 0.7 * p.z());
     for (const double depth : geometry::depth_below_smooth_surface(slow, sphere.rest, bent, sphere.faces))
         ASSERT_NEAR(depth, 0, 1e-9);
 }
@@ -110,7 +110,7 @@ TEST(SmoothSurface, WrinklesOnAShrunkenSphereAreFoundWhole) {
         return 0.02 * std::pow(std::hypot(p.x(), p.z()), 12) * std::cos(12 * std::atan2(p.z(), p.x()));
     });
     std::vector<Vec3> wrinkled;
-    for (std::size_t v = 0; v < depth.size(); ++v) wrinkled.push_back((0.7 - depth[v]) * sphere.rest[v]);
+    for (std::size_t v = 0; v < depth.size(); ++v) wrinkled.emplace_back((0.7 - depth[v]) * sphere.rest[v]);
     const auto found = geometry::depth_below_smooth_surface(slow, sphere.rest, wrinkled, sphere.faces);
     for (std::size_t v = 0; v < depth.size(); ++v) ASSERT_NEAR(found[v], depth[v], 2e-4);
 }
