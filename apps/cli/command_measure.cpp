@@ -4,31 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "core/error.h"
-#include "drying/measure.h"
+#include "recipe/process.h"
 
 namespace windfall::cli {
 namespace {
 
 using nlohmann::json;
-
-struct Column {
-    const char* key;
-    const char* title;
-    int digits;
-};
-
-constexpr Column kColumns[] = {
-    {"frame", "frame", 0},
-    {"time", "time", 3},
-    {"shrinkage", "shrinkage", 4},
-    {"flesh_volume_ratio", "flesh volume", 4},
-    {"total_volume_ratio", "total volume", 4},
-    {"depth_rms_over_te", "depth/t_e", 3},
-    {"wavelength_over_te", "wave/t_e", 2},
-    {"valleys", "valleys", 0},
-    {"ridge_meridian_alignment", "alignment", 3},
-};
 
 std::string cell(const json& value, int digits) {
     return value.is_number() ? fmt::format("{:.{}f}", value.get<double>(), digits) : "-";
@@ -41,14 +22,13 @@ std::string plain(const json& value) {
     return value.dump();
 }
 
-void print_table(const json& measures) {
-    for (const Column& column : kColumns)
-        fmt::print("{:>{}}", column.title, std::string(column.title).size() + 2);
+void print_table(const json& measures, const std::vector<recipe::MeasureColumn>& columns) {
+    for (const auto& column : columns) fmt::print("{:>{}}", column.title, column.title.size() + 2);
     fmt::print("\n");
     for (const json& frame : measures.value("frames", json::array())) {
-        for (const Column& column : kColumns)
+        for (const auto& column : columns)
             fmt::print("{:>{}}", cell(frame.value(column.key, json()), column.digits),
-                       std::string(column.title).size() + 2);
+                       column.title.size() + 2);
         fmt::print("\n");
     }
     fmt::print("\n");
@@ -64,7 +44,7 @@ void add_measure(CLI::App& app) {
         bool as_json = false;
     };
     CLI::App* command =
-        app.add_subcommand("measure", "Measure a take: wave lengths, depth, valleys, volumes");
+        app.add_subcommand("measure", "Measure a take: wave lengths of wrinkles, height of a break, volumes");
     const auto options = std::make_shared<Options>();
     command->add_option("TAKE", options->take, "The take's folder")->required();
     command->add_flag("--json", options->as_json, "Everything, for programs");
@@ -72,17 +52,16 @@ void add_measure(CLI::App& app) {
         "Examples:\n"
         "  windfall measure jujube-seed1.take\n"
         "  windfall measure jujube-seed1.take --json | jq '.frames[-1].valleys'\n"
+        "  windfall measure cypress-seed5.take\n"
         "docs/measures.md defines every number.");
     command->callback([options] {
         const take::TakeReader take(options->take);
-        if (take.info().process != "drying")
-            throw InputError(fmt::format("{}: a take of \"{}\", of which nothing can be measured yet",
-                                         options->take, take.info().process));
-        const json measures = drying::measure(take);
+        const recipe::Process& process = recipe::process_named(take.info().process);
+        const json measures = process.measure(take);
         if (options->as_json)
             fmt::print("{}\n", measures.dump(2));
         else
-            print_table(measures);
+            print_table(measures, process.measure_columns);
     });
 }
 

@@ -7,15 +7,21 @@
 #include "commands.h"
 #include "core/error.h"
 #include "recipe/presets.h"
+#include "recipe/process.h"
 #include "recipe/recipe.h"
 
 namespace windfall::cli {
 namespace {
 
 void list_presets() {
-    for (const std::string& name : recipe::preset_names()) {
-        const recipe::Recipe preset = recipe::load(name);
-        fmt::print("{:<14} {}\n{:<14} {}\n", name, preset.title, "", preset.description);
+    std::vector<recipe::Recipe> presets;
+    for (const std::string& name : recipe::preset_names()) presets.push_back(recipe::load(name));
+    for (const recipe::Process& process : recipe::processes()) {
+        fmt::print("{}{} (`windfall {} NAME`: {})\n\n", &process == recipe::processes().data() ? "" : "\n",
+                   process.name, process.command, process.doc);
+        for (const recipe::Recipe& preset : presets)
+            if (preset.process == process.name)
+                fmt::print("{:<14} {}\n{:<14} {}\n", preset.name, preset.title, "", preset.description);
     }
 }
 

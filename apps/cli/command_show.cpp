@@ -18,6 +18,7 @@ struct ShowOptions {
     std::string output;
     std::string kind = "contact-sheet";
     std::string colouring = "material";
+    std::string view;
     std::vector<std::string> settings;
     std::string progress;
     int threads = 0;
@@ -29,6 +30,7 @@ void show(ShowOptions options) {
     const std::unique_ptr<ProgressPrinter> printer = make_progress_printer(options.progress);
     options.show.kind = picture::show_kind_named(options.kind);
     options.show.colouring = picture::colouring_named(options.colouring);
+    if (!options.view.empty()) options.show.view = picture::view_named(options.view);
     options.show.output_folder = options.output.empty() ? std::filesystem::path(options.take) / "pictures"
                                                         : std::filesystem::path(options.output);
     for (const std::string& setting : options.settings)
@@ -54,8 +56,12 @@ void add_show(CLI::App& app) {
     command->add_option("TAKE", options->take, "The take's folder")->required();
     command->add_option("--kind", options->kind, "contact-sheet, frame, turntable or time-lapse")
         ->type_name("KIND");
-    command->add_option("--colour", options->colouring, "material, or the curvature or depth in colours")
+    command
+        ->add_option("--colour", options->colouring,
+                     "material; or curvature, depth, tissue or height in colours")
         ->type_name("WHAT");
+    command->add_option("--view", options->view, "Of a branch: break (the broken end) or whole")
+        ->type_name("VIEW");
     command->add_option("-o,--output", options->output, "Folder for the pictures; TAKE/pictures when absent")
         ->type_name("DIR");
     command->add_option("--frame", show_options.frame, "Which frame a frame or turntable shows; -1: the last")
@@ -89,6 +95,7 @@ void add_show(CLI::App& app) {
         "  windfall show jujube-seed1.take --kind turntable --size 720 -o movie\n"
         "  windfall show jujube-seed1.take --kind frame --frame 3 --colour curvature\n"
         "  windfall show plum-seed1.take --set look.bloom=0.6 --force\n"
+        "  windfall show ailanthus-seed1.take --kind frame --view break --size 1080 -o closer\n"
         "Movies need ffmpeg; without it the single pictures are made all the same.");
     command->callback([options] { show(*options); });
 }

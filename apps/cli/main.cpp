@@ -22,19 +22,22 @@ int report(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
     using namespace windfall;
-    CLI::App app("Windfall ages plants on a computer: it dries fruit until the skin wrinkles.");
+    CLI::App app(
+        "Windfall ages plants on a computer: it dries fruit until the skin wrinkles, and breaks branches.");
     app.name("windfall");
     app.set_version_flag("--version", "windfall " + program_version());
     app.require_subcommand(1);
     app.footer(
         "Examples:\n"
         "  windfall dry jujube                      dry a shipped fruit; leaves jujube-seed1.take\n"
+        "  windfall snap ailanthus                  break a shipped branch; leaves ailanthus-seed1.take\n"
         "  windfall presets                         what is shipped\n"
         "  windfall presets jujube > my.toml        a recipe of your own to begin from\n"
         "  windfall show jujube-seed1.take          pictures of a take\n"
         "`windfall COMMAND --help` tells more. Exit codes: 0 done, 1 failed while running, 2 wrong input, "
         "130 cancelled.");
     cli::add_dry(app);
+    cli::add_snap(app);
     cli::add_show(app);
     cli::add_export(app);
     cli::add_measure(app);

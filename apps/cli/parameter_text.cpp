@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "recipe/schema.h"
-
 namespace windfall::cli {
 namespace {
 
@@ -41,14 +39,13 @@ std::string entry_text(const ParameterInfo& info) {
 
 }  // namespace
 
-std::string parameter_reference() {
-    std::string text =
-        "Parameters of a drying recipe, with their defaults. In a recipe file the part before the dot is a\n"
-        "[table]; on the command line: --set key=value. Lengths in r_1 are in units of the distance from "
-        "the\n"
-        "centre to the south pole.\n";
+std::string parameter_reference(const recipe::Process& process) {
+    std::string text = fmt::format(
+        "Parameters of a recipe of {} (`windfall {}`: {}), with their defaults.\n"
+        "In a recipe file the part before the dot is a [table]; on the command line: --set key=value.\n",
+        process.name, process.command, process.doc);
     std::string group = "-";
-    for (const auto& info : recipe::parameter_infos()) {
+    for (const auto& info : recipe::parameter_infos(process)) {
         if (info.group() != group) {
             group = info.group();
             text += group.empty() ? "\n" : fmt::format("\n[{}]\n", group);

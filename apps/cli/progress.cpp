@@ -28,6 +28,10 @@ class TextPrinter : public ProgressPrinter {
         for (const auto& picture : pictures) fmt::print("picture: {}\n", picture.string());
         std::fflush(stdout);
     }
+    void written(const std::vector<std::filesystem::path>& files) override {
+        for (const auto& file : files) fmt::print("file: {}\n", file.string());
+        std::fflush(stdout);
+    }
     void error(const std::string&, int) override {}
 };
 
@@ -85,6 +89,10 @@ class BarPrinter final : public TextPrinter {
         clear();
         TextPrinter::done(take, pictures);
     }
+    void written(const std::vector<std::filesystem::path>& files) override {
+        clear();
+        TextPrinter::written(files);
+    }
     void error(const std::string&, int) override { clear(); }
 
   private:
@@ -123,15 +131,21 @@ class JsonPrinter final : public ProgressPrinter {
     }
     void done(const std::filesystem::path& take,
               const std::vector<std::filesystem::path>& pictures) override {
-        nlohmann::json paths = nlohmann::json::array();
-        for (const auto& picture : pictures) paths.push_back(picture.string());
-        print({{"event", "done"}, {"take", take.string()}, {"pictures", paths}});
+        print({{"event", "done"}, {"take", take.string()}, {"pictures", texts(pictures)}});
+    }
+    void written(const std::vector<std::filesystem::path>& files) override {
+        print({{"event", "done"}, {"files", texts(files)}});
     }
     void error(const std::string& text, int exit_code) override {
         print({{"event", "error"}, {"message", text}, {"exit_code", exit_code}});
     }
 
   private:
+    static nlohmann::json texts(const std::vector<std::filesystem::path>& paths) {
+        nlohmann::json result = nlohmann::json::array();
+        for (const auto& path : paths) result.push_back(path.string());
+        return result;
+    }
     static void print(const nlohmann::json& event) {
         // Paths and messages may hold bytes that are not UTF-8; a reader of lines must get JSON all the same.
         fmt::print("{}\n", event.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));

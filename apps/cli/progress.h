@@ -20,7 +20,9 @@ class ProgressPrinter {
     /// The last word of a run that ended well. `pictures` may be empty.
     virtual void done(const std::filesystem::path& take,
                       const std::vector<std::filesystem::path>& pictures) = 0;
-    /// The last word of one that did not. The text for people goes to stderr in any case.
+    /// The same of a command that wrote files and no take.
+    virtual void written(const std::vector<std::filesystem::path>& files) = 0;
+    /// The last word of one that did not end well. The text for people goes to stderr in any case.
     virtual void error(const std::string& text, int exit_code) = 0;
 };
 

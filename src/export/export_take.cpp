@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "export/glb.h"
-#include "export/mesh_to_export.h"
+#include "export/meshes_of_take.h"
 #include "export/obj.h"
 #include "export/ply.h"
 #include "take/whole_file.h"
@@ -15,18 +15,18 @@ namespace windfall::export_ {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::Vec3;
 
 std::string extension(ExportFormat format) {
     return "." + export_format_names()[static_cast<std::size_t>(format)];
 }
 
-// One file: a mesh at one frame, or at all of them.
+// One file: the meshes at one frame, or at all of them.
 struct Job {
-    std::size_t mesh = 0;
     int first_frame = 0;
     int last_frame = 0;
     fs::path path;
+    std::string material_file = {};  // OBJ: the file with the materials, beside it
+    bool is_material_file = false;
 };
 
 void check(const take::TakeReader& take, const ExportOptions& options) {
@@ -67,14 +67,18 @@ std::vector<Job> plan_jobs(const take::TakeReader& take, const ExportOptions& op
     const std::string stem = to_file ? options.output.stem().string() : file_stem(take.info().name);
     const bool numbered = !animated && !(to_file && options.frame);
 
+    const bool has_materials = std::any_of(take.meshes().begin(), take.meshes().end(),
+                                           [](const auto& mesh) { return !mesh.materials.empty(); });
     std::vector<Job> jobs;
-    for (std::size_t m = 0; m < take.meshes().size(); ++m) {
-        const std::string mesh = take.meshes().size() > 1 ? "_" + take.meshes()[m].name : "";
-        for (int frame = first; frame <= (animated ? first : last); ++frame)
-            jobs.push_back(
-                {m, frame, animated ? last : frame,
-                 folder / (stem + mesh + (numbered ? fmt::format("_{:04}", frame) : "") + suffix)});
+    std::string material_file;
+    if (options.format == ExportFormat::Obj && has_materials) {
+        material_file = stem + ".mtl";  // one for all frames
+        jobs.push_back({first, first, folder / material_file, "", true});
     }
+    for (int frame = first; frame <= (animated ? first : last); ++frame)
+        jobs.push_back({frame, animated ? last : frame,
+                        folder / (stem + (numbered ? fmt::format("_{:04}", frame) : "") + suffix),
+                        material_file});
     return jobs;
 }
 
@@ -91,90 +95,45 @@ void check_free(const std::vector<Job>& jobs, bool overwrite) {
     }
 }
 
-const take::FrameMesh& mesh_of(const take::Frame& frame, const std::string& name) {
-    for (const auto& mesh : frame.meshes)
-        if (mesh.name == name) return mesh;
-    throw InputError(fmt::format("frame {} has no mesh '{}'; make the take again", frame.index, name));
+std::vector<std::byte> bytes_of(const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
 }
 
-std::vector<Vec3> in_metres(const take::FrameMesh& mesh, double metres, int frame) {
-    std::vector<Vec3> positions;
-    positions.reserve(mesh.positions.size());
-    for (const auto& p : mesh.positions) {
-        positions.emplace_back(metres * p.cast<double>());
-        if (!positions.back().allFinite())
-            throw InputError(fmt::format(
-                "frame {} has vertices that are nowhere (not a number); make the take again", frame));
+// All meshes with their ways through the frames of a job.
+std::vector<MeshToAnimate> animated_meshes(const take::TakeReader& take, std::vector<MeshToExport> meshes,
+                                           const Job& job, double metres, const RunContext& context) {
+    std::vector<MeshToAnimate> animated(meshes.size());
+    for (int index = job.first_frame + 1; index <= job.last_frame; ++index) {
+        context.throw_if_cancelled();
+        context.progress({"export", static_cast<double>(index), static_cast<double>(job.last_frame + 1), -1,
+                          job.path.filename().string()});
+        auto shapes = shapes_at(meshes, take.frame(index), metres);
+        for (std::size_t m = 0; m < shapes.size(); ++m)
+            animated[m].later_frames.push_back(std::move(shapes[m]));
     }
-    return positions;
-}
-
-// A vertex without area around it has no normal, and formats want unit vectors.
-std::vector<Vec3> unit_normals(const std::vector<Vec3>& positions, const std::vector<geometry::Face>& faces) {
-    auto normals = geometry::vertex_normals(positions, faces);
-    for (Vec3& normal : normals)
-        if (!(std::abs(normal.norm() - 1) < 1e-6)) normal = Vec3::UnitY();
-    return normals;
-}
-
-MeshToExport mesh_to_export(const take::TakeMesh& fresh, const take::Frame& frame, double metres) {
-    const auto& moved = mesh_of(frame, fresh.name);
-    MeshToExport mesh;
-    mesh.name = fresh.name;
-    mesh.positions = in_metres(moved, metres, frame.index);
-    mesh.normals = unit_normals(mesh.positions, fresh.rest.faces);
-    mesh.faces = fresh.rest.faces;
-    mesh.corner_uvs = fresh.rest.corner_uvs;
-    mesh.attributes = fresh.attributes;
-    mesh.attributes.insert(mesh.attributes.end(), moved.attributes.begin(), moved.attributes.end());
-    return mesh;
-}
-
-std::vector<Eigen::Vector3f> to_floats(const std::vector<Vec3>& vectors) {
-    std::vector<Eigen::Vector3f> floats;
-    for (const Vec3& v : vectors) floats.emplace_back(v.cast<float>());
-    return floats;
-}
-
-double linear_from_srgb(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
-
-// The plain part of a take's look; a look without these keys leaves a neutral grey.
-ExportMaterial material_of(const nlohmann::json& look) {
-    ExportMaterial material;
-    if (!look.is_object()) return material;
-    const auto colour = look.find("look.dry_colour");
-    if (colour != look.end() && colour->is_array() && colour->size() == 3)
-        for (std::size_t k = 0; k < 3; ++k)
-            if ((*colour)[k].is_number())
-                material.base_colour[k] = std::clamp(linear_from_srgb((*colour)[k].get<double>()), 0.0, 1.0);
-    const auto roughness = look.find("look.roughness");
-    if (roughness != look.end() && roughness->is_number())
-        material.roughness = std::clamp(roughness->get<double>(), 0.0, 1.0);
-    return material;
+    // Attributes of the first frame would be wrong in all the others, and morph targets cannot carry them.
+    if (job.last_frame > job.first_frame) keep_constant_attributes(take, meshes);
+    for (std::size_t m = 0; m < meshes.size(); ++m) animated[m].mesh = std::move(meshes[m]);
+    return animated;
 }
 
 std::vector<std::byte> file_bytes(const take::TakeReader& take, const Job& job, const ExportOptions& options,
                                   const RunContext& context) {
     const double metres = take.info().unit_length_m * options.scale;
-    const auto& fresh = take.meshes()[job.mesh];
-    MeshToExport mesh = mesh_to_export(fresh, take.frame(job.first_frame), metres);
-    if (options.format == ExportFormat::Ply) return ply_bytes(mesh);
-    if (options.format == ExportFormat::Obj) {
-        const std::string text = obj_text(mesh);
-        const auto bytes = std::as_bytes(std::span(text));
-        return {bytes.begin(), bytes.end()};
+    auto meshes = meshes_at(take, take.frame(job.first_frame), metres);
+    if (meshes.empty()) throw InputError(fmt::format("{} has no faces to export", take.folder().string()));
+    if (job.is_material_file) return bytes_of(mtl_text(meshes));
+    switch (options.format) {
+        case ExportFormat::Obj:
+            return bytes_of(obj_text(meshes, job.material_file));
+        case ExportFormat::Ply:
+            return ply_bytes(meshes);
+        case ExportFormat::Glb:
+            break;
     }
-    std::vector<MorphShape> later_frames;
-    for (int index = job.first_frame + 1; index <= job.last_frame; ++index) {
-        context.throw_if_cancelled();
-        context.progress({"export", static_cast<double>(index), static_cast<double>(job.last_frame + 1), -1,
-                          job.path.filename().string()});
-        const auto positions = in_metres(mesh_of(take.frame(index), fresh.name), metres, index);
-        later_frames.push_back({to_floats(positions), to_floats(unit_normals(positions, mesh.faces))});
-    }
-    // Attributes of the first frame would be wrong in all the others, and morph targets cannot carry them.
-    if (!later_frames.empty()) mesh.attributes = fresh.attributes;
-    return glb_bytes(mesh, material_of(take.info().look), later_frames, options.frames_per_second);
+    return glb_bytes(animated_meshes(take, std::move(meshes), job, metres, context),
+                     options.frames_per_second);
 }
 
 }  // namespace

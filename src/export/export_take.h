@@ -28,9 +28,10 @@ struct ExportOptions {
     double frames_per_second = 24;  ///< GLB with all frames: each frame of the take is one frame of the film
 };
 
-/// Writes frames of a take to files, Y up (the fruit's own axis is y), each file whole or not at all. All
-/// names are checked before the first file is written. Returns the files in the order in which they were
-/// written.
+/// Writes frames of a take to files, Y up (the axis of the fruit or branch is y), each file whole or not at
+/// all and with all meshes in it. An OBJ of several materials has one file STEM.mtl beside it, for all
+/// frames. All names are checked before the first file is written. Returns the files in the order in which
+/// they were written.
 std::vector<std::filesystem::path> export_take(const take::TakeReader& take, const ExportOptions& options,
                                                const RunContext& context);
 

@@ -1,180 +1,109 @@
 #include "export/glb.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstring>
-#include <limits>
-#include <set>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/version.h"
-#include "export/seam_split.h"
+#include "export/glb_part.h"
 
 namespace windfall::export_ {
 namespace {
 
-using Eigen::Vector3f;
-
-// Grows the buffer of a model; every accessor has a view of its own.
-class BufferBuilder {
+/// The materials that faces are of, each name once.
+class Materials {
   public:
-    explicit BufferBuilder(tinygltf::Model& model) : m_model(model) { m_model.buffers.emplace_back(); }
-
-    /// `target`: TINYGLTF_TARGET_*, or 0 for data that is neither vertices nor indices.
-    template <class T>
-    int add_view(const std::vector<T>& numbers, int target) {
-        auto& data = m_model.buffers[0].data;
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = data.size();
-        view.byteLength = numbers.size() * sizeof(T);
-        view.target = target;
-        // tinygltf writes offsets as int, so a larger buffer would come out wrong.
-        if (view.byteOffset + view.byteLength > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw InputError(
-                "the animation does not fit into one GLB file (2 GiB); export single frames with --frame, or "
-                "the "
-                "sequence as obj or ply");
-        data.resize(data.size() + view.byteLength);
-        std::memcpy(data.data() + view.byteOffset, numbers.data(), view.byteLength);
-        m_model.bufferViews.push_back(std::move(view));
-        return static_cast<int>(m_model.bufferViews.size()) - 1;
+    explicit Materials(std::span<const MeshToAnimate> meshes) {
+        for (const auto& animated : meshes) {
+            const auto used = animated.mesh.used_materials();
+            for (std::size_t m = 0; m < used.size(); ++m)
+                if (used[m] && find(animated.mesh.materials[m].name) == m_materials.size())
+                    m_materials.push_back(animated.mesh.materials[m]);
+        }
+        std::vector<std::array<double, 3>> brightest(m_materials.size(), {0, 0, 0});
+        for (const auto& animated : meshes) add_brightest(animated.mesh, brightest);
+        // Colours at the vertices are parts of the base colour, so that a reader that knows of none shows a
+        // colour of that kind.
+        for (std::size_t m = 0; m < m_materials.size(); ++m)
+            if (*std::max_element(brightest[m].begin(), brightest[m].end()) > 0)
+                for (std::size_t k = 0; k < 3; ++k)
+                    m_materials[m].base_colour[k] = std::clamp(brightest[m][k], 1e-3, 1.0);
     }
 
-    int add_accessor(int view, int component_type, int type, std::size_t count) {
-        tinygltf::Accessor accessor;
-        accessor.bufferView = view;
-        accessor.componentType = component_type;
-        accessor.type = type;
-        accessor.count = count;
-        m_model.accessors.push_back(std::move(accessor));
-        return static_cast<int>(m_model.accessors.size()) - 1;
+    std::size_t find(const std::string& name) const {
+        const auto at = std::find_if(m_materials.begin(), m_materials.end(),
+                                     [&](const auto& material) { return material.name == name; });
+        return static_cast<std::size_t>(at - m_materials.begin());
     }
-
-    int add_floats(const std::vector<float>& numbers, int type, int target) {
-        const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
-        return add_accessor(add_view(numbers, target), TINYGLTF_COMPONENT_TYPE_FLOAT, type,
-                            numbers.size() / static_cast<std::size_t>(width));
-    }
-
-    tinygltf::Accessor& accessor(int index) { return m_model.accessors[static_cast<std::size_t>(index)]; }
+    const std::vector<ExportMaterial>& all() const { return m_materials; }
 
   private:
-    tinygltf::Model& m_model;
+    void add_brightest(const MeshToExport& mesh, std::vector<std::array<double, 3>>& brightest) const {
+        const take::Attribute* colour = mesh.colour();
+        if (colour == nullptr) return;
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            auto& most = brightest[find(mesh.materials[mesh.material_of(f)].name)];
+            for (int c = 0; c < geometry::corner_count(mesh.faces[f]); ++c)
+                for (std::size_t k = 0; k < 3; ++k)
+                    most[k] = std::max<double>(
+                        most[k], colour->values[3 * static_cast<std::size_t>(mesh.faces[f][c]) + k]);
+        }
+    }
+
+    std::vector<ExportMaterial> m_materials;
 };
 
-void set_bounds(tinygltf::Accessor& accessor, const std::vector<float>& numbers, std::size_t width) {
-    accessor.minValues.assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(width));
-    accessor.maxValues = accessor.minValues;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        accessor.minValues[i % width] = std::min<double>(accessor.minValues[i % width], numbers[i]);
-        accessor.maxValues[i % width] = std::max<double>(accessor.maxValues[i % width], numbers[i]);
-    }
-}
-
-// Three floats for every new vertex, of the vertex that it is a copy of.
-template <class VectorAt>
-std::vector<float> gathered3(const SeamSplit& split, const VectorAt& vector_at) {
-    std::vector<float> numbers;
-    numbers.reserve(3 * split.source.size());
-    for (const auto v : split.source) {
-        const Vector3f vector = vector_at(static_cast<std::size_t>(v));
-        numbers.insert(numbers.end(), vector.begin(), vector.end());
-    }
-    return numbers;
-}
-
-// Displacements of a morph target; as a list of those that are not zero where that is shorter.
-int add_displacements(BufferBuilder& buffer, const std::vector<float>& numbers) {
-    std::vector<std::uint32_t> moved;
-    const std::size_t count = numbers.size() / 3;
-    for (std::size_t i = 0; i < count; ++i)
-        if (numbers[3 * i] != 0 || numbers[3 * i + 1] != 0 || numbers[3 * i + 2] != 0)
-            moved.push_back(static_cast<std::uint32_t>(i));
-    constexpr std::size_t kVectorBytes = 3 * sizeof(float);
-    int index = -1;
-    if (moved.size() * (kVectorBytes + sizeof(std::uint32_t)) >= count * kVectorBytes) {
-        index = buffer.add_floats(numbers, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    } else {
-        if (moved.empty()) moved.push_back(0);  // glTF has no empty list
-        std::vector<float> values;
-        for (const auto i : moved)
-            values.insert(values.end(), numbers.begin() + 3 * std::ptrdiff_t{i},
-                          numbers.begin() + 3 * std::ptrdiff_t{i} + 3);
-        index = buffer.add_accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, count);
-        auto& sparse = buffer.accessor(index).sparse;
-        sparse.isSparse = true;
-        sparse.count = static_cast<int>(moved.size());
-        sparse.indices.byteOffset = sparse.values.byteOffset = 0;  // tinygltf leaves them undefined
-        sparse.indices.bufferView = buffer.add_view(moved, 0);
-        sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-        sparse.values.bufferView = buffer.add_view(values, 0);
-    }
-    set_bounds(buffer.accessor(index), numbers, 3);
-    return index;
-}
-
-// glTF asks for a leading underscore; capitals are its custom.
-std::string attribute_name(const std::string& name, const std::map<std::string, int>& taken) {
-    std::string result = "_";
-    for (const char c : name) result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    while (taken.contains(result)) result += '_';
+tinygltf::Material gltf_material(const ExportMaterial& material) {
+    tinygltf::Material result;
+    result.name = material.name;
+    const auto& colour = material.base_colour;
+    result.pbrMetallicRoughness.baseColorFactor = {colour[0], colour[1], colour[2], 1};
+    result.pbrMetallicRoughness.metallicFactor = 0;
+    result.pbrMetallicRoughness.roughnessFactor = material.roughness;
     return result;
 }
 
-void add_attribute(BufferBuilder& buffer, tinygltf::Primitive& primitive, const SeamSplit& split,
-                   const take::Attribute& attribute) {
-    constexpr int kTypes[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
-                              TINYGLTF_TYPE_VEC4};
-    const auto components = static_cast<std::size_t>(attribute.components);
-    const auto add = [&](const std::string& name, std::size_t first, std::size_t width) {
-        std::vector<float> numbers;
-        for (const auto v : split.source)
-            for (std::size_t k = first; k < first + width; ++k)
-                numbers.push_back(attribute.values[static_cast<std::size_t>(v) * components + k]);
-        primitive.attributes[attribute_name(name, primitive.attributes)] =
-            buffer.add_floats(numbers, kTypes[width - 1], TINYGLTF_TARGET_ARRAY_BUFFER);
-    };
-    const auto names = component_names(attribute);
-    if (components <= 4) {
-        const std::string& first = names.front();  // "name", or "name_x"
-        add(components == 1 ? first : first.substr(0, first.size() - 2), 0, components);
-    } else {
-        for (std::size_t k = 0; k < components; ++k) add(names[k], k, 1);
+/// The parts of a mesh that have a face; a mesh of one material is one part.
+std::vector<GlbPart> add_parts(BufferBuilder& buffer, const MeshToAnimate& animated,
+                               const Materials& materials) {
+    const MeshToExport& mesh = animated.mesh;
+    const std::vector<bool> used = mesh.used_materials();
+    std::vector<GlbPart> parts;
+    for (std::size_t m = 0; m < mesh.materials.size(); ++m) {
+        if (!used[m]) continue;
+        const auto normals = !mesh.materials[m].hard         ? NormalsOfPart::OfVertices
+                             : animated.later_frames.empty() ? NormalsOfPart::OfFaces
+                                                             : NormalsOfPart::None;
+        const std::size_t material = materials.find(mesh.materials[m].name);
+        parts.push_back(add_part(buffer, mesh, m, materials.all()[material].base_colour, normals));
+        parts.back().primitive.material = static_cast<int>(material);
     }
+    return parts;
 }
 
-tinygltf::Primitive static_primitive(BufferBuilder& buffer, const MeshToExport& mesh,
-                                     const SeamSplit& split) {
-    constexpr int kVertices = TINYGLTF_TARGET_ARRAY_BUFFER;
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
-    primitive.indices =
-        buffer.add_accessor(buffer.add_view(split.indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
-                            TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, split.indices.size());
-
-    const auto positions = gathered3(split, [&](std::size_t v) { return mesh.positions[v].cast<float>(); });
-    const int position = buffer.add_floats(positions, TINYGLTF_TYPE_VEC3, kVertices);
-    set_bounds(buffer.accessor(position), positions, 3);
-    primitive.attributes["POSITION"] = position;
-    const auto normals = gathered3(split, [&](std::size_t v) { return mesh.normals[v].cast<float>(); });
-    primitive.attributes["NORMAL"] = buffer.add_floats(normals, TINYGLTF_TYPE_VEC3, kVertices);
-    if (!split.uvs.empty()) {
-        std::vector<float> uvs;
-        for (const auto& uv : split.uvs)  // glTF's origin is the upper left
-            uvs.insert(uvs.end(), {static_cast<float>(uv.x()), static_cast<float>(1 - uv.y())});
-        primitive.attributes["TEXCOORD_0"] = buffer.add_floats(uvs, TINYGLTF_TYPE_VEC2, kVertices);
+tinygltf::Mesh gltf_mesh(BufferBuilder& buffer, const MeshToAnimate& animated, const Materials& materials) {
+    tinygltf::Mesh result;
+    result.name = animated.mesh.name;
+    std::vector<GlbPart> parts = add_parts(buffer, animated, materials);
+    if (!animated.later_frames.empty()) {
+        tinygltf::Value::Array names;
+        for (std::size_t t = 0; t < animated.later_frames.size(); ++t) {
+            for (GlbPart& part : parts) add_target(buffer, part, animated.mesh, animated.later_frames[t]);
+            names.emplace_back(fmt::format("frame_{:04}", t + 1));
+        }
+        result.weights.assign(animated.later_frames.size(), 0.0);
+        // Not in the standard, but read by Blender and three.js, and written by both.
+        result.extras =
+            tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(std::move(names))}});
     }
-    for (const auto& attribute : mesh.attributes) add_attribute(buffer, primitive, split, attribute);
-    return primitive;
+    for (GlbPart& part : parts) result.primitives.push_back(std::move(part.primitive));
+    return result;
 }
 
-// Key k of the animation shows frame k alone: target k - 1 with weight 1, and none at key 0.
+// Key k of the animation shows frame k alone: target k - 1 with weight 1, and none at key 0. All meshes
+// follow the same keys.
 void add_animation(tinygltf::Model& model, BufferBuilder& buffer, std::size_t targets,
                    double frames_per_second) {
     std::vector<float> times, weights;
@@ -187,70 +116,38 @@ void add_animation(tinygltf::Model& model, BufferBuilder& buffer, std::size_t ta
     set_bounds(buffer.accessor(sampler.input), times, 1);
     sampler.output = buffer.add_floats(weights, TINYGLTF_TYPE_SCALAR, 0);
     sampler.interpolation = "LINEAR";
-    tinygltf::AnimationChannel channel;
-    channel.sampler = 0;
-    channel.target_node = 0;
-    channel.target_path = "weights";
     tinygltf::Animation animation;
     animation.name = "ageing";
     animation.samplers.push_back(std::move(sampler));
-    animation.channels.push_back(std::move(channel));
-    model.animations.push_back(std::move(animation));
-}
-
-void add_morphs(BufferBuilder& buffer, tinygltf::Mesh& gltf_mesh, const MeshToExport& mesh,
-                const SeamSplit& split, std::span<const MorphShape> later_frames) {
-    tinygltf::Value::Array names;
-    for (std::size_t t = 0; t < later_frames.size(); ++t) {
-        const MorphShape& shape = later_frames[t];
-        const auto moved = gathered3(split, [&](std::size_t v) -> Vector3f {
-            return shape.positions[v] - mesh.positions[v].cast<float>();
-        });
-        const auto turned = gathered3(split, [&](std::size_t v) -> Vector3f {
-            return shape.normals[v] - mesh.normals[v].cast<float>();
-        });
-        gltf_mesh.primitives[0].targets.push_back(
-            {{"POSITION", add_displacements(buffer, moved)}, {"NORMAL", add_displacements(buffer, turned)}});
-        names.emplace_back(fmt::format("frame_{:04}", t + 1));
+    for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+        tinygltf::AnimationChannel channel;
+        channel.sampler = 0;
+        channel.target_node = static_cast<int>(node);
+        channel.target_path = "weights";
+        animation.channels.push_back(std::move(channel));
     }
-    gltf_mesh.weights.assign(later_frames.size(), 0.0);
-    // Not in the standard, but read by Blender and three.js, and written by both.
-    gltf_mesh.extras =
-        tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(std::move(names))}});
-}
-
-tinygltf::Material gltf_material(const ExportMaterial& material, const std::string& name) {
-    tinygltf::Material result;
-    result.name = name;
-    const auto& colour = material.base_colour;
-    result.pbrMetallicRoughness.baseColorFactor = {colour[0], colour[1], colour[2], 1};
-    result.pbrMetallicRoughness.metallicFactor = 0;
-    result.pbrMetallicRoughness.roughnessFactor = material.roughness;
-    return result;
+    model.animations.push_back(std::move(animation));
 }
 
 }  // namespace
 
-std::vector<std::byte> glb_bytes(const MeshToExport& mesh, const ExportMaterial& material,
-                                 std::span<const MorphShape> later_frames, double frames_per_second) {
-    const SeamSplit split = split_at_seams(mesh.positions.size(), mesh.faces, mesh.corner_uvs);
+std::vector<std::byte> glb_bytes(std::span<const MeshToAnimate> meshes, double frames_per_second) {
+    const Materials materials(meshes);
     tinygltf::Model model;
     BufferBuilder buffer(model);
-    tinygltf::Mesh gltf_mesh;
-    gltf_mesh.name = mesh.name;
-    gltf_mesh.primitives.push_back(static_primitive(buffer, mesh, split));
-    if (!later_frames.empty()) {
-        add_morphs(buffer, gltf_mesh, mesh, split, later_frames);
-        add_animation(model, buffer, later_frames.size(), frames_per_second);
-    }
-    model.meshes.push_back(std::move(gltf_mesh));
-    model.materials.push_back(gltf_material(material, mesh.name));
-    tinygltf::Node node;
-    node.name = mesh.name;
-    node.mesh = 0;
-    model.nodes.push_back(std::move(node));
     tinygltf::Scene scene;
-    scene.nodes = {0};
+    for (const MeshToAnimate& animated : meshes) {
+        const auto index = static_cast<int>(model.meshes.size());
+        model.meshes.push_back(gltf_mesh(buffer, animated, materials));
+        tinygltf::Node node;
+        node.name = animated.mesh.name;
+        node.mesh = index;
+        model.nodes.push_back(std::move(node));
+        scene.nodes.push_back(index);
+    }
+    if (const std::size_t targets = meshes.front().later_frames.size(); targets > 0)
+        add_animation(model, buffer, targets, frames_per_second);
+    for (const ExportMaterial& material : materials.all()) model.materials.push_back(gltf_material(material));
     model.scenes.push_back(std::move(scene));
     model.defaultScene = 0;
     model.asset.version = "2.0";

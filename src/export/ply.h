@@ -1,14 +1,17 @@
 #pragma once
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "export/mesh_to_export.h"
 
 namespace windfall::export_ {
 
-/// A binary little-endian PLY file: positions, normals and every attribute as float properties of the
-/// vertices; faces with three or four corners; texture coordinates, where there are any, as the faces' list
-/// property "texcoord".
-std::vector<std::byte> ply_bytes(const MeshToExport& mesh);
+/// A binary little-endian PLY file with all meshes in it, one after the other: positions, normals and every
+/// attribute that all meshes have as float properties of the vertices, but the colour as the bytes red,
+/// green, blue (sRGB); faces with three or four corners; texture coordinates, where all meshes have them, as
+/// the faces' list property "texcoord". Where there are several materials or meshes the faces' properties
+/// "material" and "mesh" number them; comments say their names.
+std::vector<std::byte> ply_bytes(std::span<const MeshToExport> meshes);
 
 }  // namespace windfall::export_

@@ -3,10 +3,14 @@
 // into triangles, so that the result does not depend on a choice of diagonal.
 #include "picture/colouring.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/error.h"
 #include "picture/image.h"
 #include "picture/names.h"
 
@@ -15,6 +19,37 @@ namespace {
 
 using geometry::Face;
 using geometry::Vec3;
+
+/// Magnitudes up to this share of the vertices span the diverging colours; the rest is cut, so that a few
+/// sharp creases do not make all else pale.
+constexpr double kFalseColourFraction = 0.9;
+
+/// Displayed colours of pith, heartwood, sapwood, phloem and bark.
+constexpr std::array<std::array<double, 3>, 5> kTissueColours{
+    {{0.55, 0.30, 0.65}, {0.80, 0.36, 0.24}, {0.95, 0.80, 0.45}, {0.42, 0.66, 0.33}, {0.40, 0.38, 0.40}}};
+
+/// Linear RGB between displayed colours that are evenly spread over t in [0, 1].
+std::array<float, 3> colour_between(const std::array<std::array<double, 3>, 5>& stops, double t) {
+    const double place =
+        std::isfinite(t) ? static_cast<double>(stops.size() - 1) * std::clamp(t, 0.0, 1.0) : 0;
+    const auto stop = std::min<std::size_t>(static_cast<std::size_t>(place), stops.size() - 2);
+    const double part = place - static_cast<double>(stop);
+    std::array<float, 3> colour{};
+    for (std::size_t c = 0; c < 3; ++c)
+        colour[c] =
+            linear_from_srgb(static_cast<float>((1 - part) * stops[stop][c] + part * stops[stop + 1][c]));
+    return colour;
+}
+
+std::vector<double> attribute_values(const std::string& name, const take::TakeMesh& mesh,
+                                     const take::FrameMesh& moved) {
+    const take::Attribute* found = moved.find(name);
+    if (found == nullptr) found = mesh.find(name);
+    if (found == nullptr || found->values.size() != moved.positions.size())
+        throw InputError(
+            fmt::format("mesh \"{}\" has no {} at its vertices; choose another colouring", mesh.name, name));
+    return {found->values.begin(), found->values.end()};
+}
 
 /// Sums at the vertices.
 struct Stars {
@@ -50,7 +85,7 @@ Colouring colouring_named(const std::string& name) {
 }
 
 const std::vector<std::string>& colouring_names() {
-    static const std::vector<std::string> names{"material", "curvature", "depth"};
+    static const std::vector<std::string> names{"material", "curvature", "depth", "tissue", "height"};
     return names;
 }
 
@@ -86,18 +121,69 @@ double robust_magnitude(std::span<const std::vector<double>> sets, double fracti
     return *at > 0 ? *at : 1;
 }
 
+std::vector<double> shown_values(Colouring colouring, const take::TakeMesh& mesh,
+                                 const take::FrameMesh& moved) {
+    switch (colouring) {
+        case Colouring::Material:
+            break;
+        case Colouring::Curvature: {
+            std::vector<Vec3> positions(moved.positions.size());
+            for (std::size_t v = 0; v < positions.size(); ++v)
+                positions[v] = moved.positions[v].cast<double>();
+            return mean_curvature(positions, mesh.rest.faces);
+        }
+        case Colouring::Depth: {
+            std::vector<double> values = attribute_values("depth", mesh, moved);
+            for (double& depth : values) depth = -depth;
+            return values;
+        }
+        case Colouring::Tissue:
+            return attribute_values("tissue", mesh, moved);
+        case Colouring::Height:
+            return attribute_values("height", mesh, moved);
+    }
+    return {};
+}
+
+ColourRange colour_range(Colouring colouring, std::span<const std::vector<double>> sets) {
+    if (colouring == Colouring::Tissue) return {0, static_cast<double>(kTissueColours.size() - 1)};
+    if (colouring != Colouring::Height) {
+        const double magnitude = robust_magnitude(sets, kFalseColourFraction);
+        return {-magnitude, magnitude};
+    }
+    ColourRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const auto& set : sets)
+        for (const double value : set)
+            if (std::isfinite(value)) range = {std::min(range.low, value), std::max(range.high, value)};
+    return range.low < range.high ? range : ColourRange{};
+}
+
+std::array<float, 3> shown_colour(Colouring colouring, double value, const ColourRange& range) {
+    const double t = (value - range.low) / (range.high - range.low);
+    switch (colouring) {
+        case Colouring::Tissue:
+            return colour_between(kTissueColours, t);
+        case Colouring::Height:
+            return sequential_colour(t);
+        default:
+            return diverging_colour(2 * t - 1);
+    }
+}
+
 std::array<float, 3> diverging_colour(double t) {
     // Displayed colours at t = -1, -1/2, 0, 1/2, 1.
-    constexpr std::array<std::array<double, 3>, 5> kStops{
+    static constexpr std::array<std::array<double, 3>, 5> kStops{
         {{0.10, 0.25, 0.90}, {0.47, 0.62, 0.97}, {0.94, 0.94, 0.94}, {0.97, 0.58, 0.48}, {0.92, 0.19, 0.09}}};
-    const double place = 2 * (std::clamp(t, -1.0, 1.0) + 1);
-    const auto stop = std::min<std::size_t>(static_cast<std::size_t>(place), 3);
-    const double part = place - static_cast<double>(stop);
-    std::array<float, 3> colour{};
-    for (std::size_t c = 0; c < 3; ++c)
-        colour[c] =
-            linear_from_srgb(static_cast<float>((1 - part) * kStops[stop][c] + part * kStops[stop + 1][c]));
-    return colour;
+    return colour_between(kStops, (t + 1) / 2);
+}
+
+std::array<float, 3> sequential_colour(double t) {
+    static constexpr std::array<std::array<double, 3>, 5> kStops{{{0.267, 0.005, 0.329},
+                                                                  {0.229, 0.322, 0.546},
+                                                                  {0.128, 0.567, 0.551},
+                                                                  {0.369, 0.789, 0.383},
+                                                                  {0.993, 0.906, 0.144}}};
+    return colour_between(kStops, t);
 }
 
 }  // namespace windfall::picture

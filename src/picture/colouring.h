@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "geometry/surface_mesh.h"
+#include "take/frame.h"
 
 namespace windfall::picture {
 
 /// What the surface shows. Curvature: mean curvature, red convex, blue concave. Depth: red ridges, blue
-/// valleys.
-enum class Colouring { Material, Curvature, Depth };
+/// valleys. Tissue: pith, heartwood, sapwood, phloem and bark, a colour each. Height: along the branch, from
+/// dark blue to yellow.
+enum class Colouring { Material, Curvature, Depth, Tissue, Height };
 
-/// "material", "curvature", "depth"; InputError for any other name.
+/// "material", "curvature", "depth", "tissue", "height"; InputError for any other name.
 Colouring colouring_named(const std::string& name);
 const std::vector<std::string>& colouring_names();
 
@@ -26,7 +28,28 @@ std::vector<double> mean_curvature(const std::vector<geometry::Vec3>& positions,
 /// 1 when every value is zero or there is none.
 double robust_magnitude(std::span<const std::vector<double>> sets, double fraction);
 
+/// The values that a colouring shows at the vertices of a mesh: mean curvature; the attribute "depth" with
+/// its sign turned, so that ridges are positive as they are in curvature; "tissue"; "height". Empty for the
+/// material. Throws InputError when the mesh has no such attribute.
+std::vector<double> shown_values(Colouring colouring, const take::TakeMesh& mesh,
+                                 const take::FrameMesh& moved);
+
+/// The values that have the first and the last colour.
+struct ColourRange {
+    double low = -1, high = 1;
+};
+
+/// One range for all of these values, so that a colour means the same in all pictures of a take: symmetrical
+/// about zero for curvature and depth, where a tenth of the largest is cut off.
+ColourRange colour_range(Colouring colouring, std::span<const std::vector<double>> sets);
+
+/// Linear RGB of a value.
+std::array<float, 3> shown_colour(Colouring colouring, double value, const ColourRange& range);
+
 /// Diverging map for t in [-1, 1]: blue, white at 0, red; linear RGB.
 std::array<float, 3> diverging_colour(double t);
+
+/// From dark blue to yellow for t in [0, 1], ever brighter (viridis); linear RGB.
+std::array<float, 3> sequential_colour(double t);
 
 }  // namespace windfall::picture

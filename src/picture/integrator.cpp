@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "picture/grain.h"
+
 namespace windfall::picture {
 namespace {
 
@@ -188,7 +190,8 @@ PathSample Integrator::trace(const Ray& camera_ray, float height_in_picture, Sam
     const float to_floor = floor_distance(camera_ray);
     Ray ray = camera_ray;
     ray.to = to_floor;
-    if (const auto hit = m_surfaces.first_hit(ray)) {
+    if (auto hit = m_surfaces.first_hit(ray)) {
+        apply_grain(*hit);
         result.albedo = hit->albedo;
         result.normal = hit->normal;
         if (ray.direction.dot(hit->face_normal) < 0) result.radiance = skin(*hit, -ray.direction, sampler);

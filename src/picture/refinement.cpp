@@ -217,7 +217,7 @@ std::vector<Vec3f> smooth_normals(const std::vector<Vec3f>& positions,
                                   const std::vector<std::array<std::uint32_t, 4>>& quads) {
     std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
     for (const auto& q : quads) {
-        const Vec3f area = (positions[q[2]] - positions[q[0]]).cross(positions[q[3]] - positions[q[1]]);
+        const Vec3f area = facet_area(positions, q);
         for (const std::uint32_t v : q) normals[v] += area;
     }
     for (Vec3f& n : normals) {

@@ -13,12 +13,17 @@ using Vec3f = Eigen::Vector3f;
 /// Brightness of a linear colour as the eye weighs it (Rec. 709).
 inline float luminance(const Vec3f& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
 
-/// How light is reflected, all over one surface.
+/// Fine structure that the light sees and the mesh does not have (grain.h).
+enum class Grain { None, Bark, Fibres, EndGrain };
+
+/// How a part of a surface reflects light.
 struct Finish {
     float roughness = 0.4F;  ///< of the clear coat: GGX, alpha = roughness squared
     float gloss = 1;         ///< weight of the clear coat (F0 0.04); 0: none
     Vec3f scatter =
         Vec3f::Zero();  ///< mean path of light under the surface, per colour, in units of the scene; 0: none
+    Grain grain = Grain::None;
+    bool hard = false;  ///< shaded with the normals of the facets, so that its edges are crisp
 };
 
 /// A surface fine enough to be drawn with its facets: quadrilaterals with normals and colours at the
@@ -27,9 +32,16 @@ struct SceneMesh {
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;                       ///< unit length, outwards
     std::vector<Vec3f> albedo;                        ///< linear RGB, 0..1
+    std::vector<Vec3f> rest;                          ///< where a grain sticks to; empty where there is none
     std::vector<std::array<std::uint32_t, 4>> quads;  ///< a triangle repeats its last corner
-    Finish finish;
+    std::vector<Finish> finishes{Finish{}};           ///< at least one
+    std::vector<std::uint8_t> quad_finishes;          ///< of each quad; empty: all have the first
 };
+
+/// Twice the area of a facet, along its normal.
+inline Vec3f facet_area(const std::vector<Vec3f>& positions, const std::array<std::uint32_t, 4>& quad) {
+    return (positions[quad[2]] - positions[quad[0]]).cross(positions[quad[3]] - positions[quad[1]]);
+}
 
 /// A round light so far away that it is the same everywhere, seen as a disc of even brightness.
 struct DistantLight {
@@ -62,9 +74,27 @@ struct Camera {
     double vertical_field_of_view_deg = 24;
 };
 
-/// The camera that sees the whole of a sphere with `margin` (1: it touches the frame).
+/// Room about what a picture shows; 1: it touches the frame.
+inline constexpr double kFramingMargin = 1.12;
+
+/// The camera that sees the whole of a sphere with `margin`.
 Camera frame_sphere(const Vec3f& centre, double radius, double azimuth_deg, double elevation_deg,
-                    double margin = 1.12);
+                    double margin = kFramingMargin);
+
+/// What a picture is to show: points that stand for a whole surface.
+struct Region {
+    Vec3f centre = Vec3f::Zero();  ///< of the box about it
+    float half_height = 1;         ///< of that box
+    std::vector<Vec3f> points;
+};
+
+/// Whether a camera keeps its distance and height when it goes around, so that a turntable does not wobble,
+/// or comes as near as one side lets it.
+enum class Framing { AllSides, OneSide };
+
+/// The camera that sees the whole of a region with `margin`.
+Camera frame_region(const Region& region, double azimuth_deg, double elevation_deg, Framing framing,
+                    double margin = 1.06);
 
 struct Scene {
     std::vector<SceneMesh> meshes;

@@ -2,140 +2,63 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "core/error.h"
 #include "picture/contact_sheet.h"
 #include "picture/movie.h"
 #include "picture/names.h"
 #include "picture/path_tracer.h"
+#include "picture/show_plan.h"
 #include "picture/stage.h"
 #include "take/whole_file.h"
 
 namespace windfall::picture {
 namespace {
 
-constexpr int kLargestSize = 4096;
 constexpr std::int64_t kMostSheetPixels = 400'000'000;
-/// Magnitudes up to this share of the vertices span the false colours; the rest is cut, so that a few sharp
-/// creases do not make all else pale.
-constexpr double kFalseColourFraction = 0.9;
-constexpr int kScaleFrames = 6;
+/// Frames that decide about false colours, and about what a picture of moving wood must hold.
+constexpr int kSampledFrames = 6;
 
-template <class Number>
-void require(const char* what, Number value, Number low, Number high) {
-    if (!(value >= low && value <= high))
-        throw InputError(fmt::format("{} must be {} to {}, not {}", what, low, high, value));
-}
-
-void check(const ShowOptions& options, int frame_count) {
-    if (frame_count < 1) throw InputError("the take has no frames yet: there is nothing to show");
-    require("the size of a picture", options.size, 16, kLargestSize);
-    require("the number of samples", options.samples, 1, 65536);
-    require("the elevation of the camera", options.elevation_deg, -5.0, 89.0);
-    require("the azimuth of the camera", options.azimuth_deg, -3600.0, 3600.0);
-    require("the number of frames on a sheet", options.sheet_frames, 1, 100);
-    require("the number of views of a turntable", options.turntable_views, 1, 9999);
-    require("the frames per second", options.frames_per_second, 0.1, 240.0);
-    if (options.frame < -1 || options.frame >= frame_count)
-        throw InputError(fmt::format("there is no frame {}: the take has the frames 0 to {} (-1: the last)",
-                                     options.frame, frame_count - 1));
-}
-
-/// Up to `most` of the frames 0 .. count - 1, evenly chosen, with the last and, if there are two, the first.
-std::vector<int> evenly_chosen(int count, int most) {
-    if (most == 1 || count == 1) return {count - 1};
-    std::vector<int> chosen;
-    const int n = std::min(count, most);
-    for (int i = 0; i < n; ++i)
-        chosen.push_back(static_cast<int>(std::lround(static_cast<double>(i) * (count - 1) / (n - 1))));
-    return chosen;
-}
-
-/// One picture that is to be made.
-struct Shot {
-    int frame;
-    double azimuth_deg;
-    std::filesystem::path file;  ///< empty: a cell of the sheet
-    std::string caption;
-};
-
-struct Plan {
-    std::vector<Shot> shots;
-    std::filesystem::path sheet;   ///< empty for none
-    std::filesystem::path movie;   ///< empty for none
-    std::filesystem::path folder;  ///< of the shots
-};
-
-Plan plan_of(const ShowOptions& options, const std::filesystem::path& folder, int frame_count) {
-    const std::string suffix = options.colouring == Colouring::Material
-                                   ? ""
-                                   : "-" + colouring_names()[static_cast<std::size_t>(options.colouring)];
-    const int single = options.frame < 0 ? frame_count - 1 : options.frame;
-    Plan plan;
-    plan.folder = folder;
-    const auto movie_folder = [&](const std::string& name) {
-        plan.folder = folder / (name + suffix);
-        plan.movie = folder / (name + suffix + ".mp4");
-    };
-    switch (options.kind) {
-        case ShowKind::ContactSheet:
-            plan.sheet = folder / ("contact-sheet" + suffix + ".png");
-            for (const int frame : evenly_chosen(frame_count, options.sheet_frames))
-                plan.shots.push_back({frame, options.azimuth_deg, {}, ""});
-            break;
-        case ShowKind::SingleFrame:
-            plan.shots.push_back(
-                {single, options.azimuth_deg, folder / fmt::format("frame-{:04}{}.png", single, suffix), ""});
-            break;
-        case ShowKind::Turntable:
-            movie_folder("turntable");
-            for (int i = 0; i < options.turntable_views; ++i)
-                plan.shots.push_back({single, options.azimuth_deg + 360.0 * i / options.turntable_views,
-                                      plan.folder / fmt::format("{:04}.png", i), ""});
-            break;
-        case ShowKind::TimeLapse:
-            movie_folder("time-lapse");
-            for (int i = 0; i < frame_count; ++i)
-                plan.shots.push_back({i, options.azimuth_deg, plan.folder / fmt::format("{:04}.png", i), ""});
-            break;
-    }
-    return plan;
-}
-
-void refuse_existing(const Plan& plan) {
-    std::vector<std::filesystem::path> files{plan.sheet, plan.movie};
-    for (const Shot& shot : plan.shots) files.push_back(shot.file);
-    for (const auto& file : files)
-        if (!file.empty() && std::filesystem::exists(file))
-            throw InputError(fmt::format(
-                "{} exists already; use --force to replace it, or another output folder", file.string()));
-}
-
-StageSettings stage_settings(const take::TakeReader& take, const ShowOptions& options) {
+StageSettings stage_settings(const take::TakeReader& take, const ShowOptions& options,
+                             std::span<const take::Frame> sampled) {
     StageSettings settings;
-    settings.look = look_from_json(take.info().look);
-    for (const auto& [key, value] : options.look) set_look(settings.look, key, value);
+    if (is_wood(take.meshes())) {
+        if (!options.look.empty())
+            throw InputError(
+                fmt::format("{}: only fruit has a look; set the colours of wood in its recipe, "
+                            "colours.*, and make the take again",
+                            options.look.front().first));
+    } else {
+        settings.look = look_from_json(take.info().look);
+        for (const auto& [key, value] : options.look) set_look(settings.look, key, value);
+    }
     settings.colouring = options.colouring;
-    settings.azimuth_deg = options.azimuth_deg;
-    settings.elevation_deg = options.elevation_deg;
     settings.picture_size = options.size;
-    const auto scalars = take.frame(take.frame_count() - 1).scalars;
+    const auto& scalars = sampled.back().scalars;
     if (const auto found = scalars.find("shrinkage"); found != scalars.end())
         settings.final_shrinkage = found->second;
     if (options.colouring == Colouring::Material) return settings;
     // The same frames whatever is shown, so that a colour means the same in all pictures of a take.
     std::vector<std::vector<double>> sets;
-    for (const int index : evenly_chosen(take.frame_count(), kScaleFrames)) {
-        const take::Frame frame = take.frame(index);
+    for (const take::Frame& frame : sampled)
         for (const auto& mesh : take.meshes())
             for (const auto& moved : frame.meshes)
                 if (moved.name == mesh.name) sets.push_back(shown_values(options.colouring, mesh, moved));
-    }
-    settings.false_colour_scale = robust_magnitude(sets, kFalseColourFraction);
+    settings.colour_range = colour_range(options.colouring, sets);
     return settings;
+}
+
+std::vector<take::Frame> sampled_frames(const take::TakeReader& take) {
+    std::vector<take::Frame> frames;
+    for (const int index : evenly_chosen(take.frame_count(), kSampledFrames))
+        frames.push_back(take.frame(index));
+    return frames;
+}
+
+Stage stage_for(const take::TakeReader& take, const ShowOptions& options) {
+    const std::vector<take::Frame> sampled = sampled_frames(take);
+    return Stage(take.meshes(), stage_settings(take, options, sampled), sampled);
 }
 
 std::string title_of(const take::TakeInfo& info, Colouring colouring) {
@@ -147,11 +70,16 @@ std::string title_of(const take::TakeInfo& info, Colouring colouring) {
             return name + " \u2013 mean curvature: red convex, blue concave";
         case Colouring::Depth:
             return name + " \u2013 depth: red ridges, blue valleys";
+        case Colouring::Tissue:
+            return name + " \u2013 pith violet, heartwood red, sapwood yellow, phloem green, bark grey";
+        case Colouring::Height:
+            return name + " \u2013 height along the branch: low blue, high yellow";
     }
     return name;
 }
 
-std::string caption_of(const take::Frame& frame) {
+std::string caption_of(const take::Frame& frame, bool wood) {
+    if (wood) return fmt::format("{:.2f} s", frame.time);
     const auto found = frame.scalars.find("shrinkage");
     return found == frame.scalars.end() ? fmt::format("time {:.2f}", frame.time)
                                         : fmt::format("shrinkage {:.2f}", found->second);
@@ -175,7 +103,7 @@ RunContext part_of(const RunContext& context, std::size_t done, std::size_t tota
 class Photographer {
   public:
     Photographer(const take::TakeReader& take, const ShowOptions& options)
-        : m_take(take), m_options(options), m_stage(take.meshes(), stage_settings(take, options)) {}
+        : m_take(take), m_options(options), m_stage(stage_for(take, options)) {}
 
     Image8 shoot(Shot& shot, const RunContext& context) {
         if (shot.frame != m_frame.index || m_scene.meshes.empty()) {
@@ -183,8 +111,8 @@ class Photographer {
             m_frame.index = shot.frame;
             m_scene = m_stage.scene_of(m_frame);
         }
-        shot.caption = caption_of(m_frame);
-        m_stage.aim(m_scene, shot.azimuth_deg);
+        if (shot.caption.empty()) shot.caption = caption_of(m_frame, is_wood(m_take.meshes()));
+        m_stage.aim(m_scene, shot.azimuth_deg, shot.elevation_deg, shot.view, shot.framing);
         RenderSettings settings;
         settings.width = settings.height = m_options.size;
         settings.samples = m_options.samples;
@@ -213,10 +141,16 @@ const std::vector<std::string>& show_kind_names() {
     return names;
 }
 
+View view_named(const std::string& name) { return choice_named<View>("view", view_names(), name); }
+
+const std::vector<std::string>& view_names() {
+    static const std::vector<std::string> names{"whole", "break"};
+    return names;
+}
+
 ShowOutput show_take(const take::TakeReader& take, const ShowOptions& options, const RunContext& context) {
-    check(options, take.frame_count());
     const auto folder = options.output_folder.empty() ? take.folder() / "pictures" : options.output_folder;
-    Plan plan = plan_of(options, folder, take.frame_count());
+    ShowPlan plan = plan_show(options, folder, take.frame_count(), is_wood(take.meshes()));
     const SheetLayout layout = sheet_layout(static_cast<int>(plan.shots.size()), options.size);
     if (!plan.sheet.empty() && static_cast<std::int64_t>(layout.width()) * layout.height() > kMostSheetPixels)
         throw InputError(

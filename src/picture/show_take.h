@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of a take: contact sheet, single frames, turntable and time lapse.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/parameter.h"
 #include "core/run_context.h"
 #include "picture/colouring.h"
+#include "picture/wood_surface.h"
 #include "take/take_reader.h"
 
 namespace windfall::picture {
@@ -18,20 +20,29 @@ enum class ShowKind { ContactSheet, SingleFrame, Turntable, TimeLapse };
 ShowKind show_kind_named(const std::string& name);
 const std::vector<std::string>& show_kind_names();
 
+/// "whole", "break"; InputError for any other name.
+View view_named(const std::string& name);
+const std::vector<std::string>& view_names();
+
 struct ShowOptions {
     std::filesystem::path output_folder;  ///< made when missing; empty: "pictures" in the folder of the take
     ShowKind kind = ShowKind::ContactSheet;
     Colouring colouring = Colouring::Material;
-    int size = 480;             ///< pixels along a side of one picture (a cell of the sheet), 16 .. 4096
-    int samples = 48;           ///< paths per pixel, 1 .. 65536
-    double azimuth_deg = 25;    ///< camera about the vertical axis
-    double elevation_deg = 22;  ///< camera above the horizon, -5 .. 89
-    int sheet_frames = 6;       ///< most frames on a contact sheet; the first and the last are always there
-    int frame = -1;             ///< single frame and turntable: which frame; -1 is the last
-    int turntable_views = 72;   ///< pictures of a whole turn
+    int size = 480;           ///< pixels along a side of one picture (a cell of the sheet), 16 .. 4096
+    int samples = 48;         ///< paths per pixel, 1 .. 65536
+    double azimuth_deg = 25;  ///< camera about the vertical axis
+    /// camera above the horizon, -5 .. 89; empty: 22 for fruit, 30 for wood
+    std::optional<double> elevation_deg = {};
+    /// wood: the broken end or all of it; empty: the broken end of a still take, all of one that moves, and
+    /// on the contact sheet of a still take both
+    std::optional<View> view = {};
+    int sheet_frames = 6;      ///< most frames on a contact sheet; the first and the last are always there
+                               ///< (wood in a single frame is shown from several sides instead)
+    int frame = -1;            ///< single frame and turntable: which frame; -1 is the last
+    int turntable_views = 72;  ///< pictures of a whole turn
     double frames_per_second = 24;
     bool denoise = true;
-    std::vector<std::pair<std::string, ParameterValue>> look;  ///< "look.*" in place of what the take says
+    std::vector<std::pair<std::string, ParameterValue>> look;  ///< fruit: "look.*" in place of the take's own
     bool overwrite = false;                                    ///< pictures that exist may be replaced
     std::string ffmpeg = "ffmpeg";                             ///< program that makes the movies
 };

@@ -125,15 +125,25 @@ std::optional<SurfacePoint> Surfaces::first_hit(const Ray& ray) const {
         first ? std::array{1 - u - v, u, v} : std::array{u + v - 1, 1 - u, 1 - v};
     SurfacePoint point;
     point.distance = hit.ray.tfar;
-    point.finish = &mesh.finish;
+    point.mesh = &mesh;
+    point.corners = corners;
+    point.weights = weights;
+    point.finish = &mesh.finishes[mesh.quad_finishes.empty() ? 0 : mesh.quad_finishes[hit.hit.primID]];
     point.place = point.normal = point.albedo = Vec3f::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
         point.place += weights[k] * mesh.positions[corners[k]];
         point.normal += weights[k] * mesh.normals[corners[k]];
         point.albedo += weights[k] * mesh.albedo[corners[k]];
     }
-    point.normal.normalize();
     point.face_normal = Vec3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z).normalized();
+    if (point.finish->hard) {
+        // of the whole quadrilateral, so that its diagonal is not seen
+        point.normal = facet_area(mesh.positions, quad).normalized();
+        if (point.face_normal.dot(point.normal) < 0) point.face_normal = -point.face_normal;
+        point.start = point.place + m_lift * point.face_normal;
+        return point;
+    }
+    point.normal.normalize();
     if (point.face_normal.dot(point.normal) < 0) point.face_normal = -point.face_normal;
     // Hanika, "Hacking the shadow terminator" (2021): start from the tangent planes at the corners, not from
     // the facet.

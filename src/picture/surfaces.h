@@ -20,6 +20,9 @@ struct SurfacePoint {
     Vec3f normal;       ///< interpolated
     Vec3f albedo;
     const Finish* finish = nullptr;
+    const SceneMesh* mesh = nullptr;
+    std::array<std::uint32_t, 3> corners{};  ///< of the triangle that was hit
+    std::array<float, 3> weights{};
     Vec3f start;  ///< where rays leave from: lifted off the facet towards the smooth surface
 };
 

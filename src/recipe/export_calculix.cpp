@@ -18,6 +18,9 @@ fs::path export_calculix(const fs::path& take_folder, const fs::path& output, bo
                          const RunContext& context) {
     const take::TakeReader take(take_folder);  // complains where there is no take
     const Recipe recipe = load(take::recipe_path(take.folder()).string());
+    if (recipe.process != "drying")
+        throw InputError(fmt::format("{}: a take of \"{}\"; decks for CalculiX are made of drying fruit",
+                                     take.folder().string(), recipe.process));
     const fs::path path = output.extension() == ".inp" ? output : output / (recipe.name + ".inp");
     std::error_code ignored;
     if (fs::is_directory(path, ignored))

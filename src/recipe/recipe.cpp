@@ -6,43 +6,16 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
 #include "recipe/assignments.h"
 #include "recipe/presets.h"
+#include "recipe/process.h"
 #include "recipe/recipe_keys.h"
-#include "recipe/schema.h"
 
 namespace windfall::recipe {
 namespace {
-
-std::vector<std::string> all_keys() {
-    std::vector<std::string> keys;
-    for (const auto& info : recipe_keys()) keys.push_back(info.key);
-    for (const auto& info : parameter_infos()) keys.push_back(info.key);
-    return keys;
-}
-
-std::vector<std::string> all_tables() {
-    std::vector<std::string> tables;
-    for (const std::string& key : all_keys()) {
-        const auto dot = key.rfind('.');
-        if (dot == std::string::npos) continue;
-        const std::string table = key.substr(0, dot);
-        if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
-    }
-    return tables;
-}
-
-std::string unknown_key(const std::string& key) {
-    const auto tables = all_tables();
-    if (std::find(tables.begin(), tables.end(), key) != tables.end())
-        return fmt::format("{} is a table of parameters: write [{}] and the keys below it", key, key);
-    const auto nearest = nearest_names(key, all_keys());
-    if (nearest.empty()) return fmt::format("{} is not a parameter; `windfall schema` lists them all", key);
-    return fmt::format("{} is not a parameter; did you mean {}?", key, nearest.front());
-}
 
 /// Why `assignment` cannot be given to the parameter; empty when it can.
 std::string problem_with(const ParameterInfo& info, const Assignment& assignment) {
@@ -66,8 +39,9 @@ class Loader {
         for (const std::string& setting : settings) {
             try {
                 const Assignment assignment = parse_setting(setting);
-                if (assignment.key == "preset")
-                    m_mistakes.push_back({assignment.place, "preset can only stand in a recipe file"});
+                if (assignment.key == "preset" || assignment.key == "process")
+                    m_mistakes.push_back(
+                        {assignment.place, assignment.key + " can only stand in a recipe file"});
                 else
                     apply(assignment, recipe);
             } catch (const InputError& error) {
@@ -87,33 +61,53 @@ class Loader {
         // Presets that name each other would go on for ever.
         if (depth > 4)
             throw InputError(fmt::format("{}: presets build on each other in a ring", file.string()));
-        const std::vector<Assignment> assignments = read_file(file, all_tables(), m_mistakes);
+        const std::vector<Assignment> assignments = read_file(file, table_names(), m_mistakes);
         Recipe recipe;
+        bool inherited = false;
         for (const Assignment& assignment : assignments)
-            if (assignment.key == "preset") inherit(assignment, recipe, depth);
+            if (assignment.key == "preset") inherited = inherit(assignment, recipe, depth);
+        for (const Assignment& assignment : assignments)
+            if (assignment.key == "process") choose_process(assignment, recipe, inherited);
         recipe.name = stem_of(file);
         recipe.title.clear();
         recipe.description.clear();
         for (const Assignment& assignment : assignments)
-            if (assignment.key != "preset") apply(assignment, recipe);
+            if (assignment.key != "preset" && assignment.key != "process") apply(assignment, recipe);
         return recipe;
     }
 
-    void inherit(const Assignment& assignment, Recipe& recipe, int depth) {
+    /// Whether `recipe` is now the preset's.
+    bool inherit(const Assignment& assignment, Recipe& recipe, int depth) {
         if (!assignment.value || !std::holds_alternative<std::string>(*assignment.value)) {
             m_mistakes.push_back(
                 {assignment.place, "preset must be the name of a preset, as in preset = \"jujube\""});
-            return;
+            return false;
         }
         std::filesystem::path file;
         try {
             file = preset_file(std::get<std::string>(*assignment.value));
         } catch (const InputError& error) {
             m_mistakes.push_back({assignment.place, error.what()});
-            return;
+            return false;
         }
         recipe = load_file(file, depth + 1);
         m_places.clear();
+        return true;
+    }
+
+    /// Which keys hold depends on the process, so that it comes before all others.
+    void choose_process(const Assignment& assignment, Recipe& recipe, bool inherited) {
+        const std::string problem = problem_with(*find_recipe_key("process"), assignment);
+        if (!problem.empty())
+            m_mistakes.push_back({assignment.place, "process " + problem});
+        else if (const auto& name = std::get<std::string>(*assignment.value);
+                 inherited && name != recipe.process)
+            m_mistakes.push_back(
+                {assignment.place,
+                 fmt::format("process must be \"{}\", that of the preset it builds on, or be left out",
+                             recipe.process)});
+        else
+            recipe.process = name;
     }
 
     void apply(const Assignment& assignment, Recipe& recipe) {
@@ -121,23 +115,33 @@ class Loader {
         std::string problem;
         if (const auto* key = find_recipe_key(assignment.key)) {
             problem = apply_recipe_key(*key, assignment, recipe);
-        } else if (const auto* parameter = drying::drying_parameters().find(assignment.key)) {
+        } else if (const auto* parameter = process_named(recipe.process).find(assignment.key)) {
             problem = problem_with(parameter->info, assignment);
-            if (problem.empty()) parameter->set(recipe.drying, *assignment.value);
-        } else if (const auto* look = picture::look_parameters().find(assignment.key)) {
-            problem = problem_with(look->info, assignment);
             if (problem.empty()) {
                 try {
-                    picture::set_look(recipe.look, assignment.key, *assignment.value);
+                    parameter->set(recipe, *assignment.value);
                 } catch (const InputError& error) {
                     m_mistakes.push_back({assignment.place, error.what()});
                 }
             }
         } else {
-            m_mistakes.push_back({assignment.place, unknown_key(assignment.key)});
+            complain_of_key(assignment, recipe);
         }
         if (!problem.empty())
             m_mistakes.push_back({assignment.place, fmt::format("{} {}", assignment.key, problem)});
+    }
+
+    /// Of a table that belongs to another process one complaint is enough.
+    void complain_of_key(const Assignment& assignment, const Recipe& recipe) {
+        const auto dot = assignment.key.rfind('.');
+        const std::string table = dot == std::string::npos ? "" : assignment.key.substr(0, dot);
+        const Process& process = process_named(recipe.process);
+        const auto infos = parameter_infos(process);
+        const bool foreign =
+            !table.empty() && std::none_of(infos.begin(), infos.end(),
+                                           [&](const ParameterInfo& info) { return info.group() == table; });
+        if (foreign && !m_foreign_tables.insert(table).second) return;
+        m_mistakes.push_back({assignment.place, unknown_key_text(assignment.key, process)});
     }
 
     static std::string apply_recipe_key(const ParameterInfo& key, const Assignment& assignment,
@@ -150,7 +154,6 @@ class Loader {
         }
         if (std::string problem = problem_with(key, assignment); !problem.empty()) return problem;
         const auto& text = std::get<std::string>(*assignment.value);
-        if (key.key == "process") recipe.process = text;
         if (key.key == "name") recipe.name = text;
         if (key.key == "title") recipe.title = text;
         if (key.key == "description") recipe.description = text;
@@ -172,7 +175,7 @@ class Loader {
     /// What no single range can say. The keys that the complaint names tell where to look.
     void check_as_a_whole(const Recipe& recipe, const std::filesystem::path& file) {
         try {
-            drying::check(recipe.drying);
+            process_named(recipe.process).check(recipe);
         } catch (const InputError& error) {
             const std::string text = error.what();
             std::string place = file.string();
@@ -196,6 +199,7 @@ class Loader {
 
     std::vector<Mistake> m_mistakes;
     std::map<std::string, std::string> m_places;  ///< where each key got its value, of the outermost recipe
+    std::set<std::string> m_foreign_tables;       ///< tables of other processes, complained of already
 };
 
 }  // namespace

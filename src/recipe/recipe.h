@@ -5,20 +5,22 @@
 #include <vector>
 
 #include "drying/parameters.h"
+#include "fracture/parameters.h"
 #include "picture/look.h"
 
 namespace windfall::recipe {
 
 /// A recipe with everything resolved: inherited preset, file, settings and, where none of them speaks,
-/// defaults.
+/// defaults. Of the processes' parameters those of `process` hold; the others are left at their defaults.
 struct Recipe {
-    std::string process = "drying";
+    std::string process = "drying";  ///< one of process.h
     std::string name;         ///< of the preset, or the file's name without ".toml"; goes into file names
     std::string title;        ///< for people: "Jujube, prolate"; the name where the recipe gives none
     std::string description;  ///< a sentence or two; may be empty
     std::vector<std::string> sources;  ///< where the numbers come from
     drying::DryingParameters drying;
-    picture::Look look;
+    fracture::FractureParameters fracture;
+    picture::Look look;  ///< of fruit; wood has its colours among its parameters
 };
 
 /// Reads a shipped preset by its name or a recipe by the path of its file, then applies `settings`, each
@@ -27,7 +29,7 @@ struct Recipe {
 /// file:line:column.
 Recipe load(const std::string& preset_or_path, const std::vector<std::string>& settings = {});
 
-/// The recipe with every key written out. Loading it gives the same values to the last bit.
+/// The recipe with every key of its process written out. Loading it gives the same values to the last bit.
 std::string to_toml(const Recipe& recipe);
 
 }  // namespace windfall::recipe

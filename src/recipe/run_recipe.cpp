@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/version.h"
-#include "drying/drying_process.h"
+#include "recipe/process.h"
 #include "recipe/schema.h"
 #include "take/take_reader.h"
 
@@ -42,15 +42,16 @@ void note_end(take::TakeWriter& writer, take::TakeStatus status, const std::stri
 }  // namespace
 
 take::TakeInfo take_info(const Recipe& recipe) {
+    const Process& process = process_named(recipe.process);
     take::TakeInfo info;
     info.process = recipe.process;
     info.name = recipe.name;
     info.title = recipe.title;
     info.program_version = program_version();
-    info.seed = static_cast<std::uint64_t>(recipe.drying.seed);
-    info.unit_length_m = recipe.drying.fruit.size_m;
-    info.parameters = values_json(drying::drying_parameters(), recipe.drying);
-    info.look = values_json(picture::look_parameters(), recipe.look);
+    info.seed = seed_of(recipe);
+    info.unit_length_m = process.unit_length_m(recipe);
+    info.parameters = values_json(process.parameters, recipe);
+    info.look = values_json(process.look, recipe);
     info.recipe_text = to_toml(recipe);
     return info;
 }
@@ -58,8 +59,7 @@ take::TakeInfo take_info(const Recipe& recipe) {
 bool is_complete(const Recipe& recipe, const std::filesystem::path& folder) {
     const take::TakeReader take(folder);
     return take.status() == take::TakeStatus::Complete && take.info().process == recipe.process &&
-           take.info().parameters == take_info(recipe).parameters &&
-           take.info().look == take_info(recipe).look && take.info().title == recipe.title;
+           take.info().parameters == take_info(recipe).parameters;
 }
 
 void run(const Recipe& recipe, take::TakeWriter& writer, const RunContext& context,
@@ -67,8 +67,9 @@ void run(const Recipe& recipe, take::TakeWriter& writer, const RunContext& conte
     TellingSink sink(writer, on_frame);
     try {
         const std::optional<std::vector<std::byte>> checkpoint = writer.checkpoint();
-        drying::run(recipe.drying, sink, context,
-                    checkpoint ? std::span<const std::byte>(*checkpoint) : std::span<const std::byte>());
+        process_named(recipe.process)
+            .run(recipe, sink, context,
+                 checkpoint ? std::span<const std::byte>(*checkpoint) : std::span<const std::byte>());
     } catch (const Cancelled& error) {
         note_end(writer, take::TakeStatus::Cancelled, error.what());
         throw;

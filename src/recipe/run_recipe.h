@@ -12,8 +12,8 @@ namespace windfall::recipe {
 /// What the take of this recipe says of itself.
 take::TakeInfo take_info(const Recipe& recipe);
 
-/// Whether `folder` holds the complete take of just this recipe, so that there is nothing left to run. Throws
-/// InputError where there is no take.
+/// Whether `folder` holds the complete take of this recipe, so that there is nothing left to run; another
+/// look or title needs no run. Throws InputError where there is no take.
 bool is_complete(const Recipe& recipe, const std::filesystem::path& folder);
 
 /// Runs the recipe's process into `writer`, from the writer's checkpoint where it has one, and leaves the

@@ -1,13 +1,9 @@
 #include "recipe/schema.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "core/error.h"
 #include "core/version.h"
-#include "drying/parameters.h"
-#include "picture/look.h"
+#include "recipe/process.h"
 #include "recipe/recipe_keys.h"
 
 namespace windfall::recipe {
@@ -35,13 +31,6 @@ nlohmann::json info_json(const ParameterInfo& info) {
 
 }  // namespace
 
-std::vector<ParameterInfo> parameter_infos(const std::string& process) {
-    if (process != "drying") throw InputError(fmt::format("there is no process \"{}\"", process));
-    std::vector<ParameterInfo> infos = drying::drying_parameters().infos();
-    for (auto& info : picture::look_parameters().infos()) infos.push_back(std::move(info));
-    return infos;
-}
-
 nlohmann::json value_json(const ParameterValue& value) {
     return std::visit([](const auto& held) { return nlohmann::json(held); }, value);
 }
@@ -49,11 +38,19 @@ nlohmann::json value_json(const ParameterValue& value) {
 nlohmann::json schema() {
     nlohmann::json keys = nlohmann::json::array();
     for (const auto& info : recipe_keys()) keys.push_back(info_json(info));
-    nlohmann::json parameters = nlohmann::json::array();
-    for (const auto& info : parameter_infos("drying")) parameters.push_back(info_json(info));
-    return {{"version", program_version()},
-            {"recipe_keys", keys},
-            {"processes", {{"drying", {{"command", "dry"}, {"parameters", parameters}}}}}};
+    nlohmann::json all = nlohmann::json::object();
+    for (const Process& process : processes()) {
+        nlohmann::json parameters = nlohmann::json::array();
+        for (const auto& info : parameter_infos(process)) parameters.push_back(info_json(info));
+        all[process.name] = {{"command", process.command}, {"doc", process.doc}, {"parameters", parameters}};
+    }
+    return {{"version", program_version()}, {"recipe_keys", keys}, {"processes", all}};
+}
+
+nlohmann::json values_json(const std::vector<Parameter<Recipe>>& parameters, const Recipe& recipe) {
+    nlohmann::json values = nlohmann::json::object();
+    for (const auto& parameter : parameters) values[parameter.info.key] = value_json(parameter.get(recipe));
+    return values;
 }
 
 }  // namespace windfall::recipe

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "recipe/process.h"
 #include "recipe/recipe.h"
 
 namespace windfall::recipe {
@@ -27,17 +28,16 @@ std::string value_text(const ParameterValue& value) {
 
 /// The parameters of a table, each group under its heading; the table lists the keys of a group one after
 /// another.
-template <class Parameters>
-std::string groups_text(const ParameterTable<Parameters>& table, const Parameters& parameters) {
+std::string groups_text(const std::vector<Parameter<Recipe>>& table, const Recipe& recipe) {
     std::string result;
     std::string group;
-    for (const auto& entry : table.entries()) {
+    for (const auto& entry : table) {
         if (entry.info.group() != group) {
             group = entry.info.group();
             result += fmt::format("\n[{}]\n", group);
         }
         const std::string name = entry.info.key.substr(group.empty() ? 0 : group.size() + 1);
-        result += fmt::format("{} = {}\n", name, value_text(entry.get(parameters)));
+        result += fmt::format("{} = {}\n", name, value_text(entry.get(recipe)));
     }
     return result;
 }
@@ -58,9 +58,9 @@ std::string to_toml(const Recipe& recipe) {
         for (const std::string& source : recipe.sources) text += fmt::format("    {},\n", quoted(source));
         text += "]\n";
     }
-    // Keys without a group must stand before the first heading: drying's table begins with its seed.
-    return text + groups_text(drying::drying_parameters(), recipe.drying) +
-           groups_text(picture::look_parameters(), recipe.look);
+    const Process& process = process_named(recipe.process);
+    // Keys without a group must stand before the first heading: each process' table begins with its seed.
+    return text + groups_text(process.parameters, recipe) + groups_text(process.look, recipe);
 }
 
 }  // namespace windfall::recipe

@@ -15,6 +15,8 @@ using geometry::Face;
 using geometry::Vec2;
 using geometry::Vec3;
 
+constexpr std::size_t kMostMaterials = 256;  // what a byte a face can tell apart
+
 [[noreturn]] void damaged_frame(const std::string& file_name, const std::string& what) {
     throw InputError(fmt::format("{}: {}; make the take again", file_name, what));
 }
@@ -110,6 +112,34 @@ void check_faces(const geometry::SurfaceMesh& mesh, const std::string& file_name
         }
 }
 
+// A mesh without materials says nothing of them, as all did before there were any.
+void read_materials(const ArrayFile& file, TakeMesh& mesh, const std::string& file_name) {
+    const auto json = file.meta.find("materials");
+    if (json == file.meta.end()) return;
+    for (const auto& material : *json)
+        mesh.materials.push_back({material.at("name").get<std::string>(), material.at("hard").get<bool>()});
+    mesh.face_materials =
+        required_array<std::uint8_t>(file, "face_materials", {mesh.rest.faces.size()}, file_name);
+    if (mesh.face_materials.size() != mesh.rest.faces.size())
+        damaged_frame(file_name, "the materials do not fit the faces");
+    for (const auto place : mesh.face_materials)
+        if (place >= mesh.materials.size())
+            damaged_frame(file_name,
+                          fmt::format("a face is of material {} of {}", place, mesh.materials.size()));
+}
+
+void add_materials(ArrayFile& file, const TakeMesh& mesh) {
+    if (mesh.materials.empty() && mesh.face_materials.empty()) return;
+    if (mesh.face_materials.size() != mesh.rest.faces.size() || mesh.materials.empty() ||
+        mesh.materials.size() > kMostMaterials ||
+        std::ranges::any_of(mesh.face_materials, [&](auto m) { return m >= mesh.materials.size(); }))
+        throw std::logic_error("the materials of mesh '" + mesh.name + "' do not fit its faces");
+    auto& json = file.meta["materials"] = nlohmann::json::array();
+    for (const auto& material : mesh.materials)
+        json.push_back({{"name", material.name}, {"hard", material.hard}});
+    file.arrays.push_back({"face_materials", {mesh.face_materials.size()}, mesh.face_materials});
+}
+
 TakeMesh mesh_from_checked_json(const ArrayFile& file, const std::string& file_name) {
     check_kind(file, "mesh", file_name);
     TakeMesh mesh;
@@ -130,6 +160,7 @@ TakeMesh mesh_from_checked_json(const ArrayFile& file, const std::string& file_n
     }
     mesh.attributes = attributes_from(file, file.meta.at("attributes"), "attributes/",
                                       mesh.rest.positions.size(), file_name);
+    read_materials(file, mesh, file_name);
     return mesh;
 }
 
@@ -165,6 +196,7 @@ ArrayFile to_array_file(const TakeMesh& mesh) {
     }
     auto attributes = add_attributes(file, "attributes/", mesh.attributes, rest.positions.size());
     file.meta = {{"kind", "mesh"}, {"name", mesh.name}, {"attributes", std::move(attributes)}};
+    add_materials(file, mesh);
     return file;
 }
 

@@ -4,73 +4,30 @@
 Needs the built program in the environment variable WINDFALL_BINARY. Tests of classes whose name ends in "Runs" solve a
 (tiny) drying problem; the others only need the recipe and the command line.
 """
-import hashlib
 import json
 import os
 import pathlib
 import re
 import resource
-import shutil
 import signal
 import subprocess
-import tempfile
-import time
 import unittest
 
-BINARY = os.path.abspath(os.environ.get("WINDFALL_BINARY", "windfall"))
-PRESETS = ["jujube", "jujube-plump", "plum", "plum-round", "raisin", "sphere", "wolfberry"]
+from command_line import BINARY, CommandLine
+
+PRESETS = {
+    "dry": ["jujube", "jujube-plump", "plum", "plum-round", "raisin", "sphere", "wolfberry"],
+    "snap": ["ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17", "fig18", "fig19", "fig2",
+             "goldenrain", "green-branch", "log-end", "log-end-pine", "storm"],
+}
 
 # A fruit that dries in seconds: coarse mesh, skin thick enough for it, little shrinkage.
 TINY_SETTINGS = ["mesh.n=8", "fruit.skin_thickness=0.15", "drying.shrinkage=0.1", "output.frames=3"]
 TINY = ["sphere"] + [part for setting in TINY_SETTINGS for part in ("--set", setting)]
 
 
-def digests(take):
-    """Digest of every file that a run computes: two takes are the same to the last bit when these are equal."""
-    return {str(path.relative_to(take)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for part in ("meshes", "frames") for path in sorted((take / part).iterdir())}
-
-
-class CommandLine(unittest.TestCase):
-    """A scratch folder per test, and ways to run the program in it."""
-
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="windfall-cli-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def run_windfall(self, *arguments, timeout=300, **options):
-        return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              timeout=timeout, stdin=subprocess.DEVNULL, **options)
-
-    def succeed(self, *arguments, **options):
-        result = self.run_windfall(*arguments, **options)
-        self.assertEqual(result.returncode, 0, f"{arguments}: {result.stderr}")
-        return result.stdout
-
-    def fail_with(self, code, *arguments, **options):
-        """Runs what must fail; returns stderr. Whatever was in the folder before must be all that is there after."""
-        before = self.listing()
-        result = self.run_windfall(*arguments, **options)
-        self.assertEqual(result.returncode, code, f"{arguments}: {result.stdout}{result.stderr}")
-        self.assertIn("windfall: error: ", result.stderr)
-        if code == 2:
-            self.assertEqual(self.listing(), before, "wrong input left something behind")
-        return result.stderr
-
-    def listing(self):
-        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
-
-    def frames(self, take):
-        return digests(self.folder / take)
-
-    def write(self, text, name="fruit.toml"):
-        path = self.folder / name
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return name
-
-
 class Texts(CommandLine):
-    COMMANDS = ["dry", "show", "export", "measure", "presets", "schema", "doctor"]
+    COMMANDS = ["dry", "snap", "show", "export", "measure", "presets", "schema", "doctor"]
 
     def test_version(self):
         self.assertRegex(self.succeed("--version"), r"^windfall \d+\.\d+\.\d+")
@@ -84,9 +41,11 @@ class Texts(CommandLine):
                 self.assertIn("Example", help_text)
                 self.assertIn(f"windfall {command}", help_text)
 
-    def test_help_of_dry_refers_to_the_schema(self):
-        self.assertIn("windfall schema", self.succeed("dry", "--help"))
-        self.assertEqual(self.succeed("dry", "--help-parameters"), self.succeed("schema"))
+    def test_help_of_a_process_refers_to_its_schema(self):
+        for command, process in (("dry", "drying"), ("snap", "fracture")):
+            self.assertIn(f"windfall schema {process}", self.succeed(command, "--help"))
+            self.assertEqual(self.succeed(command, "--help-parameters"), self.succeed("schema", process))
+            self.assertIn(self.succeed("schema", process), self.succeed("schema"))
 
     def test_wrong_arguments(self):
         for arguments in ([], ["dry"], ["bake"], ["dry", "sphere", "--colour", "red"], ["dry", "sphere", "plum"],
@@ -97,38 +56,46 @@ class Texts(CommandLine):
                 self.fail_with(2, *arguments)
 
     def test_schema_is_json_and_complete(self):
-        schema = json.loads(self.succeed("schema", "--json"))
-        parameters = schema["processes"]["drying"]["parameters"]
-        keys = [parameter["key"] for parameter in parameters]
-        self.assertEqual(len(keys), len(set(keys)))
-        text = self.succeed("schema")
-        for parameter in parameters:
-            self.assertLessEqual({"key", "group", "type", "unit", "range", "minimum", "maximum", "default", "choices",
-                                  "doc", "needs_run"}, parameter.keys())
-            self.assertTrue(parameter["doc"], parameter["key"])
-            self.assertIn(f"  {parameter['key']} = ", text)
-        for key in ("seed", "fruit.r4", "material.gamma", "mesh.n", "look.dry_colour"):
-            self.assertIn(key, keys)
+        processes = json.loads(self.succeed("schema", "--json"))["processes"]
+        self.assertEqual(list(processes), ["drying", "fracture"])
+        for name, process in processes.items():
+            keys = [parameter["key"] for parameter in process["parameters"]]
+            self.assertEqual(len(keys), len(set(keys)))
+            text = self.succeed("schema", name)
+            for parameter in process["parameters"]:
+                self.assertLessEqual({"key", "group", "type", "unit", "range", "minimum", "maximum", "default",
+                                      "choices", "doc", "needs_run"}, parameter.keys())
+                self.assertTrue(parameter["doc"], parameter["key"])
+                self.assertIn(f"  {parameter['key']} = ", text)
+            self.assertIn("seed", keys)
+        for key in ("fruit.r4", "material.gamma", "mesh.n", "look.dry_colour"):
+            self.assertIn(key, [parameter["key"] for parameter in processes["drying"]["parameters"]])
+        for key in ("branch.rings", "break.tilt_deg", "bundles.radial", "cracks.large_count", "colours.wood"):
+            self.assertIn(key, [parameter["key"] for parameter in processes["fracture"]["parameters"]])
 
     def test_every_default_of_the_schema_is_accepted(self):
-        recipe = []
-        for parameter in json.loads(self.succeed("schema", "--json"))["processes"]["drying"]["parameters"]:
-            recipe += ["--set", f"{parameter['key']}={json.dumps(parameter['default'])}"]
-        self.succeed("dry", "sphere", "--dry-run", *recipe)
+        processes = json.loads(self.succeed("schema", "--json"))["processes"]
+        for preset, process in (("sphere", processes["drying"]), ("fig2", processes["fracture"])):
+            recipe = []
+            for parameter in process["parameters"]:
+                recipe += ["--set", f"{parameter['key']}={json.dumps(parameter['default'])}"]
+            self.succeed(process["command"], preset, "--dry-run", *recipe)
 
     def test_presets(self):
         text = self.succeed("presets")
-        for name in PRESETS:
-            self.assertRegex(text, rf"(?m)^{name}\s+\S")
-            with self.subTest(preset=name):
-                self.write(self.succeed("presets", name), f"copy-of-{name}.toml")
-                self.succeed("dry", f"copy-of-{name}.toml", "--dry-run")
-                # The resolved recipe is the same recipe.
-                resolved = self.succeed("presets", name, "--resolved")
-                self.assertIn("[imperfection]", resolved)
-                self.write(resolved, "resolved.toml")
-                self.assertEqual(self.succeed("dry", "resolved.toml", "--dry-run"),
-                                 self.succeed("dry", name, "--dry-run"))
+        for command, names in PRESETS.items():
+            self.assertIn(f"windfall {command} NAME", text)
+            for name in names:
+                self.assertRegex(text, rf"(?m)^{name}\s+\S")
+                with self.subTest(preset=name):
+                    self.write(self.succeed("presets", name), f"copy-of-{name}.toml")
+                    self.succeed(command, f"copy-of-{name}.toml", "--dry-run")
+                    # The resolved recipe is the same recipe.
+                    resolved = self.succeed("presets", name, "--resolved")
+                    self.assertIn("[output]", resolved)
+                    self.write(resolved, "resolved.toml")
+                    self.assertEqual(self.succeed(command, "resolved.toml", "--dry-run"),
+                                     self.succeed(command, name, "--dry-run"))
 
     def test_presets_of_a_wrong_name(self):
         self.assertIn("did you mean raisin?", self.fail_with(2, "presets", "rasin"))
@@ -136,9 +103,10 @@ class Texts(CommandLine):
     def test_recipes_of_the_documentation(self):
         page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "recipes.md"
         recipes = re.findall(r"(?ms)^```toml\n(.*?)^```", page.read_text())
-        self.assertEqual(len(recipes), 2)
+        self.assertEqual(len(recipes), 4)
         for recipe in recipes:
-            self.succeed("dry", self.write(recipe), "--dry-run")
+            branch = 'process = "fracture"' in recipe or 'preset = "cypress"' in recipe
+            self.succeed("snap" if branch else "dry", self.write(recipe), "--dry-run")
 
     def test_parameter_reference_is_up_to_date(self):
         script = pathlib.Path(__file__).resolve().parents[2] / "tools" / "make-parameter-reference"
@@ -409,30 +377,12 @@ class InterruptedRuns(CommandLine):
     LONG = ["sphere", "--set", "mesh.n=8", "--set", "fruit.skin_thickness=0.15", "--set", "drying.shrinkage=0.2",
             "--set", "solver.max_step=0.001", "--set", "output.frames=41", "--no-pictures"]
 
-    def interrupt(self, arguments, wanted, which=signal.SIGINT):
-        """Starts a run, sends the signal once `wanted(event)`; returns exit code, seconds from the signal, stderr."""
-        process = subprocess.Popen([BINARY, "dry", *arguments, "--progress", "json"], cwd=self.folder, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        try:
-            for line in process.stdout:
-                if wanted(json.loads(line)):
-                    break
-            else:
-                self.fail("the run ended before it could be interrupted: " + process.stderr.read())
-            process.send_signal(which)
-            start = time.monotonic()
-            _, errors = process.communicate(timeout=60)
-            return process.returncode, time.monotonic() - start, errors
-        finally:
-            process.kill()
-            process.wait()
-
     def test_resumed_run_equals_uninterrupted_one(self):
         self.succeed("dry", *self.LONG, "-o", "whole.take")
         for stop_at in (0, 2, 17):
             with self.subTest(stop_at=stop_at):
                 take = f"stopped-{stop_at}.take"
-                code, _, errors = self.interrupt([*self.LONG, "-o", take],
+                code, _, errors = self.interrupt(["dry", *self.LONG, "-o", take],
                                                  lambda event: event["event"] == "frame" and event["index"] == stop_at)
                 self.assertEqual(code, 130, errors)
                 self.assertEqual(json.loads((self.folder / take / "take.json").read_text())["status"], "cancelled")
@@ -444,7 +394,7 @@ class InterruptedRuns(CommandLine):
 
     def test_killed_run_can_be_resumed(self):
         self.succeed("dry", *self.LONG, "-o", "whole.take")
-        code, _, errors = self.interrupt([*self.LONG, "-o", "killed.take"],
+        code, _, errors = self.interrupt(["dry", *self.LONG, "-o", "killed.take"],
                                          lambda event: event["event"] == "frame" and event["index"] == 5,
                                          signal.SIGKILL)
         self.assertEqual(code, -signal.SIGKILL, errors)
@@ -452,7 +402,8 @@ class InterruptedRuns(CommandLine):
         self.assertEqual(self.frames("killed.take"), self.frames("whole.take"))
 
     def test_interrupted_while_drawing(self):
-        code, seconds, errors = self.interrupt([*TINY, "-o", "x.take"], lambda event: event.get("stage") == "pictures")
+        code, seconds, errors = self.interrupt(["dry", *TINY, "-o", "x.take"],
+                                               lambda event: event.get("stage") == "pictures")
         self.assertEqual(code, 130, errors)
         self.assertLess(seconds, 2)
         self.assertIn("windfall show x.take", errors)
@@ -463,7 +414,7 @@ class InterruptedRuns(CommandLine):
             with self.subTest(signal=which):
                 # The base case at its full size.
                 code, seconds, errors = self.interrupt(
-                    ["sphere", "-o", f"{which.name}.take"],
+                    ["dry", "sphere", "-o", f"{which.name}.take"],
                     lambda event: event["event"] == "progress" and event["done"] > 0, which)
                 self.assertEqual(code, 130, errors)
                 self.assertLess(seconds, 2)

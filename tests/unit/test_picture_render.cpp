@@ -27,7 +27,7 @@ Scene furnace() {
         sphere.positions.emplace_back(fine.row(row).transpose());
     sphere.normals = smooth_normals(sphere.positions, sphere.quads);
     sphere.albedo.assign(sphere.positions.size(), Vec3f::Ones());
-    sphere.finish.gloss = 0;
+    sphere.finishes[0].gloss = 0;
     scene.meshes.push_back(sphere);
     scene.has_floor = false;
     scene.backdrop_top = scene.backdrop_bottom = Vec3f::Ones();
@@ -79,8 +79,8 @@ TEST(PictureRender, WhiteSphereInASkyLitByADiscKeepsItsEnergy) {
 TEST(PictureRender, ClearCoatNeitherMakesNorLosesMuchLight) {
     for (const float roughness : {0.1F, 0.4F, 0.8F}) {
         Scene scene = furnace();
-        scene.meshes[0].finish.gloss = 1;
-        scene.meshes[0].finish.roughness = roughness;
+        scene.meshes[0].finishes[0].gloss = 1;
+        scene.meshes[0].finishes[0].roughness = roughness;
         const float mean = mean_green(render(scene, small(32, 64)));
         EXPECT_LT(mean, 1.01) << roughness;
         EXPECT_GT(mean, 0.93) << roughness;
@@ -89,7 +89,7 @@ TEST(PictureRender, ClearCoatNeitherMakesNorLosesMuchLight) {
 
 TEST(PictureRender, SoftSkinKeepsItsEnergyInEveryColour) {
     Scene scene = furnace();
-    scene.meshes[0].finish.scatter = Vec3f(0.1F, 0.04F, 0.02F);
+    scene.meshes[0].finishes[0].scatter = Vec3f(0.1F, 0.04F, 0.02F);
     const Image image = render(scene, small(32, 64));
     for (std::size_t c = 0; c < 3; ++c) {
         float sum = 0;

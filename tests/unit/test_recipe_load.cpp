@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "core/error.h"
 #include "recipe/presets.h"
+#include "recipe/process.h"
 #include "recipe/recipe.h"
 #include "support/temporary_folder.h"
 
@@ -137,7 +139,8 @@ TEST_F(RecipeLoad, RefusesWhatIsOutOfRange) {
                 HasSubstr(":2:1: look.dry_colour every entry"));
     EXPECT_THAT(complaint(write("[imperfection]\nkind = 'nois'\n")),
                 HasSubstr(":2:1: imperfection.kind must be one of noise, modes, none, not \"nois\""));
-    EXPECT_THAT(complaint(write("process = 'rotting'\n")), HasSubstr(":1:1: process must be one of drying"));
+    EXPECT_THAT(complaint(write("process = 'rotting'\n")),
+                HasSubstr(":1:1: process must be one of drying, fracture, not \"rotting\""));
 }
 
 TEST_F(RecipeLoad, RefusesWrongTypes) {
@@ -177,6 +180,48 @@ TEST_F(RecipeLoad, TellsWhereTomlIsBroken) {
     EXPECT_THAT(complaint(write("[fruit]\nr4 = \n")), AllOf(HasSubstr("fruit.toml:2:"), HasSubstr("rror")));
     EXPECT_THAT(complaint(write("[fruit]\nr4 = 1.0\nr4 = 1.0\n")), HasSubstr("fruit.toml:3:"));
     EXPECT_THAT(complaint(write("title = '\xff\xfe'\n")), HasSubstr("fruit.toml:1:"));
+}
+
+TEST_F(RecipeLoad, TheProcessDecidesWhichKeysHold) {
+    const Recipe log = load(write("process = 'fracture'\n[branch]\nrings = 12\n[break]\nend = 'cut'\n"));
+    EXPECT_EQ(log.process, "fracture");
+    EXPECT_EQ(log.fracture.branch.rings, 12);
+    EXPECT_EQ(log.fracture.fracture.end, fracture::EndKind::Cut);
+    // Wherever it stands: TOML has no order.
+    EXPECT_EQ(load(write("seed = 9\nprocess = 'fracture'\n")).fracture.seed, 9);
+    EXPECT_EQ(load(write("preset = 'fig2'\n")).process, "fracture");
+    EXPECT_EQ(load("fig2", {"output.frames=5"}).fracture.output.frames, 5);
+}
+
+TEST_F(RecipeLoad, RefusesKeysOfAnotherProcess) {
+    EXPECT_THAT(
+        complaint(write("process = 'fracture'\n[fruit]\nr4 = 1\nr5 = 1\n")),
+        AllOf(HasSubstr(":3:1: fruit.r4 is a parameter of the process \"drying\", and this is a recipe "
+                        "of \"fracture\""),
+              Not(HasSubstr("r5"))))
+        << "one complaint of a table is enough";
+    EXPECT_THAT(complaint(write("[branch]\nrings = 12\n")),
+                AllOf(HasSubstr(":2:1: branch.rings is a parameter of the process \"fracture\""),
+                      HasSubstr("write process = \"fracture\" above the tables")));
+    EXPECT_THAT(complaint("sphere", {"break.tilt_deg=3"}), HasSubstr("process \"fracture\""));
+    EXPECT_THAT(complaint("fig2", {"mesh.n=8"}), HasSubstr("process \"drying\""));
+    EXPECT_THAT(complaint("fig2", {"branch.ring=8"}), HasSubstr("did you mean branch.rings?"));
+    EXPECT_THAT(complaint("fig2", {"look.gloss=0.1"}), HasSubstr("process \"drying\""))
+        << "wood has colours of its own";
+}
+
+TEST_F(RecipeLoad, TheProcessIsThatOfThePreset) {
+    EXPECT_EQ(load(write("preset = 'fig2'\nprocess = 'fracture'\n")).process, "fracture");
+    EXPECT_THAT(complaint(write("preset = 'fig2'\nprocess = 'drying'\n")),
+                HasSubstr(":2:1: process must be \"fracture\", that of the preset it builds on"));
+    EXPECT_THAT(complaint("sphere", {"process=fracture"}),
+                HasSubstr("--set process=fracture: process can only stand in a recipe file"));
+}
+
+TEST_F(RecipeLoad, PointsAtTheKeysOfABranchThatCannotBe) {
+    EXPECT_THAT(complaint(write("process = 'fracture'\n[tissue]\npith = 0.3\nheartwood = 0.9\n")),
+                AllOf(HasSubstr("fruit.toml:3:1: "), HasSubstr("tissue.pith, tissue.heartwood")));
+    EXPECT_THAT(complaint("fig2", {"break.tilt_deg=89.9"}), HasSubstr("--set break.tilt_deg=89.9: "));
 }
 
 TEST_F(RecipeLoad, RefusesFilesThatAreNoRecipes) {
@@ -221,21 +266,97 @@ TEST_F(RecipeLoad, PointsAtTheKeyOfAFruitThatCannotBe) {
     EXPECT_THAT(complaint("sphere", {"fruit.stone_r1=1.2"}), HasSubstr("--set fruit.stone_r1=1.2: "));
 }
 
+std::vector<std::string> presets_of(const std::string& process) {
+    std::vector<std::string> names;
+    for (const std::string& name : preset_names())
+        if (load(name).process == process) names.push_back(name);
+    return names;
+}
+
 TEST(Presets, AllLoad) {
-    const std::vector<std::string> names = preset_names();
-    EXPECT_THAT(names, testing::ElementsAre("jujube", "jujube-plump", "plum", "plum-round", "raisin",
-                                            "sphere", "wolfberry"));
-    for (const std::string& name : names) {
+    EXPECT_THAT(presets_of("drying"), testing::ElementsAre("jujube", "jujube-plump", "plum", "plum-round",
+                                                           "raisin", "sphere", "wolfberry"));
+    EXPECT_THAT(presets_of("fracture"),
+                testing::ElementsAre("ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17",
+                                     "fig18", "fig19", "fig2", "goldenrain", "green-branch", "log-end",
+                                     "log-end-pine", "storm"));
+    for (const std::string& name : preset_names()) {
         SCOPED_TRACE(name);
         const Recipe preset = load(name);
-        drying::check(preset.drying);
+        EXPECT_NO_THROW(process_named(preset.process).check(preset));
         EXPECT_EQ(preset.name, name);
         EXPECT_NE(preset.title, name);
         EXPECT_FALSE(preset.description.empty());
         EXPECT_FALSE(preset.sources.empty());
-        EXPECT_EQ(preset.drying.material.gamma, 10);
-        EXPECT_GE(preset.drying.fruit.skin_thickness, 0.025);
-        EXPECT_LE(preset.drying.fruit.skin_thickness, 0.05);
+    }
+}
+
+TEST(Presets, BranchesNeedNoWarning) {
+    for (const std::string& name : presets_of("fracture")) {
+        const Recipe preset = load(name);
+        EXPECT_TRUE(process_named("fracture").plan(preset).warnings.empty()) << name;
+    }
+}
+
+TEST(Presets, FruitsHaveTheStiffnessAndSkinsOfThePaper) {
+    for (const std::string& name : presets_of("drying")) {
+        SCOPED_TRACE(name);
+        const drying::DryingParameters fruit = load(name).drying;
+        EXPECT_EQ(fruit.material.gamma, 10);
+        EXPECT_GE(fruit.fruit.skin_thickness, 0.025);
+        EXPECT_LE(fruit.fruit.skin_thickness, 0.05);
+    }
+}
+
+/// Yang, Yang, Yang 2019, Table 2, in the order of its rows.
+TEST(Presets, FiguresHaveTheNumbersOfThePaper) {
+    const std::map<std::string, std::vector<double>> table = {
+        {"fig2", {.03, 40, 40, 65, .05, .05, .05, .2, 460, .2, 460, .2, 460,
+                  1,   10, 60, 1,  -1,  170, 60,  1,  0,   0,  0,   0,  0}},
+        {"fig15", {.01, 100, 100, 0, .05, .45, .125, .06, 2000, .02, 400, .02, 200,
+                   0,   0,   0,   0, 0,   180, 0,    0,   .2,   .35, 0,   150, .5}},
+        {"fig16", {.01, 40, 40,  0, .05, .75, .05, .02, 460, .02, 460, .02, 460,
+                   .5,  0,  180, 1, -.3, 135, 30,  .2,  0,   0,   0,   0,   0}},
+        {"fig17", {.01, 100, 100, 0,  .05, 0,   .05, .07, 200, .07, 200, .07, 200,
+                   1.8, 0,   150, .6, 0,   180, 0,   0,   5,   .1,  0,   150, .6}},
+        {"fig18", {.01, 100, 100, 0,  .05, 0,   .05, .05, 100, 1, 5000, 1, 5000,
+                   3,   0,   60,  .2, 0,   180, 0,   0,   0,   0, 0,    0, 0}},
+        {"fig19",
+         {.01, 40, 40, 45, .05, .3, .1, 1, 200, 1, 200, 1, 200, 0, 0, 0, 0, -4, 180, 80, .25, 0, 0, 0, 0, 0}},
+    };
+    for (const auto& [name, numbers] : table) {
+        SCOPED_TRACE(name);
+        const fracture::FractureParameters p = load(name).fracture;
+        const std::vector<double> found = {p.branch.diameter_m,
+                                           static_cast<double>(p.branch.rings),
+                                           static_cast<double>(p.branch.sectors),
+                                           p.fracture.tilt_deg,
+                                           p.tissue.pith,
+                                           p.tissue.heartwood,
+                                           p.tissue.phloem,
+                                           p.roughness.phloem,
+                                           p.roughness.phloem_frequency,
+                                           p.roughness.sapwood,
+                                           p.roughness.sapwood_frequency,
+                                           p.roughness.heartwood,
+                                           p.roughness.heartwood_frequency,
+                                           p.high.height,
+                                           p.high.angle_deg,
+                                           p.high.width_deg,
+                                           p.high.depth,
+                                           p.low.height,
+                                           p.low.angle_deg,
+                                           p.low.width_deg,
+                                           p.low.depth,
+                                           p.ductile.length,
+                                           p.ductile.probability,
+                                           p.ductile.angle_deg,
+                                           p.ductile.width_deg,
+                                           p.ductile.depth};
+        EXPECT_EQ(found, numbers);
+        EXPECT_TRUE(p.bundles.radial.empty()) << "the paper's model alone";
+        EXPECT_EQ(p.thorns.sapwood_probability, 0);
+        EXPECT_EQ(p.fracture.height_from, fracture::HeightSource::Amplitudes);
     }
 }
 
@@ -250,7 +371,7 @@ TEST(Presets, SphereIsTheBaseCaseOfThePaper) {
 }
 
 TEST(Presets, FruitsAreEllipsoids) {
-    for (const std::string& name : preset_names()) {
+    for (const std::string& name : presets_of("drying")) {
         SCOPED_TRACE(name);
         const drying::FruitParameters fruit = load(name).drying.fruit;
         const double b = fruit.r4;

@@ -1,0 +1,103 @@
+#include "picture/fruit_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "picture/skin_colour.h"
+
+namespace windfall::picture {
+namespace {
+
+/// More quadrilaterals than this no picture needs, and memory would begin to count.
+constexpr std::size_t kMostQuads = 2'000'000;
+/// Facets of this many pixels are not seen.
+constexpr double kFacetPixels = 3.6;
+
+int levels_for(const take::TakeMesh& mesh, double radius, int picture_size) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const auto& face : mesh.rest.faces) {
+        const auto a = static_cast<std::size_t>(face[0]), b = static_cast<std::size_t>(face[1]);
+        sum += (mesh.rest.positions[b] - mesh.rest.positions[a]).norm();
+        ++count;
+    }
+    const double pixels = sum / static_cast<double>(count) * picture_size / (2 * kFramingMargin * radius);
+    int levels = std::clamp(static_cast<int>(std::ceil(std::log2(pixels / kFacetPixels))), 1, 4);
+    while (levels > 1 && (mesh.rest.faces.size() << 2 * static_cast<unsigned>(levels)) > kMostQuads) --levels;
+    return levels;
+}
+
+SceneMesh bare_mesh(const Channels& fine, const Refinement& refinement) {
+    SceneMesh result;
+    result.quads = refinement.quads();
+    for (Eigen::Index row = 0; row < fine.rows(); ++row)
+        result.positions.emplace_back(fine.block<1, 3>(row, 0).transpose());
+    result.normals = smooth_normals(result.positions, result.quads);
+    return result;
+}
+
+}  // namespace
+
+FruitSurface::FruitSurface(const take::TakeMesh& mesh, double radius, int picture_size)
+    : m_mesh(mesh),
+      m_radius(radius),
+      m_refinement(mesh.rest.faces, mesh.rest.positions.size(), levels_for(mesh, radius, picture_size)) {}
+
+Channels FruitSurface::refined(const take::FrameMesh& moved, const Eigen::Matrix3f& pose,
+                               const std::function<float(std::size_t)>& value) const {
+    const std::size_t count = m_mesh.rest.positions.size();
+    if (moved.positions.size() != count)
+        throw InputError(fmt::format("mesh \"{}\" has {} vertices in the frame and {} in the take",
+                                     m_mesh.name, moved.positions.size(), count));
+    Channels coarse(static_cast<Eigen::Index>(count), 7);
+    for (std::size_t v = 0; v < count; ++v) {
+        const auto row = static_cast<Eigen::Index>(v);
+        coarse.block<1, 3>(row, 0) = (pose * moved.positions[v]).transpose();
+        coarse.block<1, 3>(row, 3) = m_mesh.rest.positions[v].cast<float>().transpose();
+        coarse(row, 6) = value(v);
+    }
+    if (!coarse.allFinite())
+        throw InputError(fmt::format("mesh \"{}\" has positions that are no numbers", m_mesh.name));
+    return m_refinement.apply(coarse);
+}
+
+SceneMesh FruitSurface::scene_mesh(const take::FrameMesh& moved, const Look& look,
+                                   const Eigen::Matrix3f& pose, double dryness) const {
+    const take::Attribute* depth = moved.find("depth");
+    if (depth != nullptr && depth->values.size() != moved.positions.size()) depth = nullptr;
+    const Channels fine =
+        refined(moved, pose, [&](std::size_t v) { return depth != nullptr ? depth->values[v] : 0.0F; });
+    SceneMesh result = bare_mesh(fine, m_refinement);
+    const auto radius = static_cast<float>(m_radius);
+    std::vector<SkinPoint> skin(static_cast<std::size_t>(fine.rows()));
+    for (Eigen::Index row = 0; row < fine.rows(); ++row)
+        skin[static_cast<std::size_t>(row)] = {fine.block<1, 3>(row, 3).transpose() / radius,
+                                               fine(row, 6) / radius};
+    result.albedo = skin_colours(look, skin, dryness);
+    roughen_normals(look, skin, dryness, result.normals);
+    Finish& finish = result.finishes[0];
+    finish.roughness = static_cast<float>(look.roughness);
+    finish.gloss = static_cast<float>(look.gloss);
+    for (int c = 0; c < 3; ++c)
+        finish.scatter[c] =
+            static_cast<float>(look.softness * look.softness_colour[static_cast<std::size_t>(c)]) * radius;
+    return result;
+}
+
+SceneMesh FruitSurface::diagram_mesh(const take::FrameMesh& moved, Colouring colouring,
+                                     const ColourRange& range, const Eigen::Matrix3f& pose) const {
+    const std::vector<double> shown = shown_values(colouring, m_mesh, moved);
+    const Channels fine = refined(moved, pose, [&](std::size_t v) { return static_cast<float>(shown[v]); });
+    SceneMesh result = bare_mesh(fine, m_refinement);
+    for (Eigen::Index row = 0; row < fine.rows(); ++row) {
+        const auto colour = shown_colour(colouring, static_cast<double>(fine(row, 6)), range);
+        result.albedo.emplace_back(colour[0], colour[1], colour[2]);
+    }
+    result.finishes[0].gloss = 0;
+    return result;
+}
+
+}  // namespace windfall::picture

@@ -1,0 +1,40 @@
+#pragma once
+// The skin of a fruit as a surface of the scene.
+#include <functional>
+#include <string>
+
+#include "picture/colouring.h"
+#include "picture/look.h"
+#include "picture/refinement.h"
+#include "picture/scene.h"
+#include "take/frame.h"
+
+namespace windfall::picture {
+
+/// One mesh of a take whose surface is smooth: refined once, coloured frame by frame.
+class FruitSurface {
+  public:
+    /// `radius`: of the sphere about the fresh fruit, whose picture is `picture_size` pixels wide. Throws
+    /// InputError when a face names a vertex that is not there.
+    FruitSurface(const take::TakeMesh& mesh, double radius, int picture_size);
+
+    const std::string& name() const { return m_mesh.name; }
+
+    /// `dryness` 0 .. 1 goes from the fresh to the dry colour. Throws InputError when the frame's vertices
+    /// are not those of the mesh, are no numbers, or have not what the colouring shows.
+    SceneMesh scene_mesh(const take::FrameMesh& moved, const Look& look, const Eigen::Matrix3f& pose,
+                         double dryness) const;
+    SceneMesh diagram_mesh(const take::FrameMesh& moved, Colouring colouring, const ColourRange& range,
+                           const Eigen::Matrix3f& pose) const;
+
+  private:
+    /// Positions, fresh positions and `values`, refined.
+    Channels refined(const take::FrameMesh& moved, const Eigen::Matrix3f& pose,
+                     const std::function<float(std::size_t)>& value) const;
+
+    take::TakeMesh m_mesh;
+    double m_radius;
+    Refinement m_refinement;
+};
+
+}  // namespace windfall::picture

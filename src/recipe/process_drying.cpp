@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "drying/drying_process.h"
+#include "drying/measure.h"
+#include "recipe/process_entry.h"
+
+namespace windfall::recipe {
+namespace {
+
+RunPlan plan_drying(const Recipe& recipe) {
+    const drying::Plan plan = drying::plan(recipe.drying);
+    const double te = recipe.drying.fruit.skin_thickness;
+    return {
+        {{"mesh", fmt::format("{} x {} x {} brick, {} layers", plan.n, plan.n_axial, plan.n, plan.layers)},
+         {"unknowns", fmt::format("{}", plan.unknowns)},
+         {"wave length",
+          fmt::format("about {:.3g} r_1, {:.3g} t_e; {:.3g} elements a wave", plan.expected_wave_length,
+                      plan.expected_wave_length / te, plan.elements_per_wave)},
+         {"frames", fmt::format("{}", drying::frame_shrinkages(recipe.drying).size())}},
+        plan.warnings};
+}
+
+}  // namespace
+
+Process drying_process() {
+    Process process;
+    process.name = "drying";
+    process.command = "dry";
+    process.doc = "dry a fruit until its skin wrinkles";
+    process.parameters = of_recipe(drying::drying_parameters(), &Recipe::drying);
+    process.look = look_of_recipe();
+    process.measure_columns = {
+        {"frame", "frame", 0},
+        {"time", "time", 3},
+        {"shrinkage", "shrinkage", 4},
+        {"flesh_volume_ratio", "flesh volume", 4},
+        {"total_volume_ratio", "total volume", 4},
+        {"depth_rms_over_te", "depth/t_e", 3},
+        {"wavelength_over_te", "wave/t_e", 2},
+        {"valleys", "valleys", 0},
+        {"ridge_meridian_alignment", "alignment", 3},
+    };
+    process.check = [](const Recipe& recipe) { drying::check(recipe.drying); };
+    process.unit_length_m = [](const Recipe& recipe) { return recipe.drying.fruit.size_m; };
+    process.plan = plan_drying;
+    process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,
+                     std::span<const std::byte> checkpoint) {
+        drying::run(recipe.drying, sink, context, checkpoint);
+    };
+    process.measure = drying::measure;
+    return process;
+}
+
+}  // namespace windfall::recipe

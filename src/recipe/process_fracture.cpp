@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include "fracture/fracture_process.h"
+#include "fracture/measure.h"
+#include "fracture/plan.h"
+#include "recipe/process_entry.h"
+
+namespace windfall::recipe {
+namespace {
+
+RunPlan plan_fracture(const Recipe& recipe) {
+    const fracture::FractureParameters& p = recipe.fracture;
+    const fracture::Plan plan = fracture::plan(p);
+    RunPlan result;
+    result.lines = {{"lattice", fmt::format("{} rings x {} sectors x {} layers", p.branch.rings,
+                                            p.branch.sectors, p.branch.layers)},
+                    {"vertices", fmt::format("about {}", plan.vertices)}};
+    if (plan.law_height)
+        result.lines.emplace_back("height law", fmt::format("mean height {:.4g} radii", *plan.law_height));
+    result.lines.emplace_back("frames", fmt::format("{}", plan.frames));
+    result.warnings = plan.warnings;
+    return result;
+}
+
+}  // namespace
+
+Process fracture_process() {
+    Process process;
+    process.name = "fracture";
+    process.command = "snap";
+    process.doc = "break a branch, or crack a sawn log";
+    process.parameters = of_recipe(fracture::fracture_parameters(), &Recipe::fracture);
+    process.measure_columns = {
+        {"frame", "frame", 0},
+        {"time", "time", 3},
+        {"stub_volume", "stub volume", 4},
+        {"piece_volume", "piece volume", 4},
+        {"bonds_holding", "bonds", 3},
+        {"fibres_bridging", "fibres", 3},
+        {"bend_deg", "bend", 1},
+    };
+    process.check = [](const Recipe& recipe) { fracture::check(recipe.fracture); };
+    process.unit_length_m = [](const Recipe& recipe) { return recipe.fracture.branch.diameter_m / 2; };
+    process.plan = plan_fracture;
+    process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,
+                     std::span<const std::byte> checkpoint) {
+        fracture::run(recipe.fracture, sink, context, checkpoint);
+    };
+    process.measure = fracture::measure;
+    return process;
+}
+
+}  // namespace windfall::recipe
