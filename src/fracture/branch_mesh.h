@@ -60,4 +60,10 @@ void append(BranchMesh& mesh, const BranchMesh& other);
 /// Fills `normals` and `face_normals` from positions and faces.
 void compute_normals(BranchMesh& mesh);
 
+/// The same for a mesh whose first vertices and faces are those of `mesh` seen from behind: where a face has
+/// the same corners (of equal height) its normals are taken over. `turned`: +-1 for each axis, how `reverse`
+/// has been turned in space meanwhile.
+void compute_reverse_normals(const BranchMesh& mesh, std::size_t shared_vertices, std::size_t shared_faces,
+                             const Vector3f& turned, BranchMesh& reverse);
+
 }  // namespace windfall::fracture

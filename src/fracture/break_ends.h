@@ -48,6 +48,8 @@ class BreakWorkspace {
   public:
     BreakWorkspace();
     ~BreakWorkspace();
+    BreakWorkspace(const BreakWorkspace&) = delete;
+    BreakWorkspace& operator=(const BreakWorkspace&) = delete;
     BreakWorkspace(BreakWorkspace&&) noexcept;
     BreakWorkspace& operator=(BreakWorkspace&&) noexcept;
     struct Buffers;

@@ -22,7 +22,10 @@ void finish(const FractureParameters& parameters, BreakEnds& ends) {
     else
         place_ends(parameters, ends);
     compute_normals(ends.stub);
-    compute_normals(ends.piece);
+    if (ends.piece.positions.empty()) return;
+    const bool upside_down = parameters.output.piece == PiecePlace::Beside;
+    compute_reverse_normals(ends.stub, static_cast<std::size_t>(ends.surface_vertices), ends.surface_faces,
+                            upside_down ? Vector3f(1, -1, -1) : Vector3f(1, 1, 1), ends.piece);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace windfall::fracture {
 namespace {
 
-using geometry::kNoVertex;
-
 constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 constexpr int kRows = 24, kColumns = 11;
 // Thickness of a strip, and how far below the notch it is rooted, in radii.

@@ -31,6 +31,9 @@ struct Surfaces::Handles {
 
 namespace {
 
+/// Cosine between the normals of a quadrilateral and its triangles above which it counts as flat.
+constexpr float kFlat = 0.9F;
+
 void attach(RTCDevice device, RTCScene scene, const SceneMesh& mesh, unsigned id) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -137,9 +140,12 @@ std::optional<SurfacePoint> Surfaces::first_hit(const Ray& ray) const {
     }
     point.face_normal = Vec3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z).normalized();
     if (point.finish->hard) {
-        // of the whole quadrilateral, so that its diagonal is not seen
-        point.normal = facet_area(mesh.positions, quad).normalized();
-        if (point.face_normal.dot(point.normal) < 0) point.face_normal = -point.face_normal;
+        const Vec3f& origin = mesh.positions[corners[0]];
+        point.face_normal =
+            (mesh.positions[corners[1]] - origin).cross(mesh.positions[corners[2]] - origin).normalized();
+        // of the whole quadrilateral, so that its diagonal is not seen, unless it is bent
+        const Vec3f whole = facet_area(mesh.positions, quad).normalized();
+        point.normal = whole.dot(point.face_normal) > kFlat ? whole : point.face_normal;
         point.start = point.place + m_lift * point.face_normal;
         return point;
     }

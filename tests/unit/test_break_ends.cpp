@@ -142,6 +142,25 @@ TEST(BreakEnds, TogetherTheyAreTheWholeBranch) {
     EXPECT_NEAR(test::volume(ends.stub) + test::volume(ends.piece), whole, 0.01 * whole);
 }
 
+TEST(BreakEnds, NormalsOfThePieceAreThoseOfItsOwnFaces) {
+    for (const PiecePlace place : {PiecePlace::Above, PiecePlace::Beside}) {
+        FractureParameters p = bundled(30, 60);
+        p.fringe.strands = 40;
+        p.thorns.sapwood_length = 1;
+        p.thorns.sapwood_probability = 0.1;
+        p.output.piece = place;
+        BreakEnds ends;
+        BreakWorkspace workspace;
+        make_branch(p, ends, workspace);
+        BranchMesh again = ends.piece;
+        compute_normals(again);
+        for (std::size_t f = 0; f < again.faces.size(); ++f)
+            ASSERT_LT((again.face_normals[f] - ends.piece.face_normals[f]).norm(), 2e-2F) << f;
+        for (std::size_t v = 0; v < again.positions.size(); ++v)
+            ASSERT_LT((again.normals[v] - ends.piece.normals[v]).norm(), 2e-2F) << v;
+    }
+}
+
 TEST(BreakEnds, ThornCountsFollowTheirProbability) {
     FractureParameters p = flat(60, 120);
     p.thorns.heartwood_length = 0.3;

@@ -156,6 +156,14 @@ TEST(PictureWood, AHardQuadrilateralIsFlatAndASmoothOneIsNot) {
     EXPECT_GT(Surfaces(scene).first_hit(ray)->normal.x(), 0.3F);
     scene.meshes[0].finishes[0].hard = true;
     EXPECT_LT((Surfaces(scene).first_hit(ray)->normal - Vec3f::UnitZ()).norm(), 1e-6);
+    // one corner far up: the half that stays flat keeps its own normal
+    scene.meshes[0].positions[2].z() = 5;
+    const auto flat = Surfaces(scene).first_hit({Vec3f(-0.6F, -0.6F, 9), Vec3f(0, 0, -1)});
+    EXPECT_LT((flat->normal - Vec3f::UnitZ()).norm(), 1e-6);
+    EXPECT_LT((flat->face_normal - Vec3f::UnitZ()).norm(), 1e-6);
+    const auto steep = Surfaces(scene).first_hit({Vec3f(0.6F, 0.6F, 9), Vec3f(0, 0, -1)});
+    EXPECT_LT(steep->face_normal.x(), -0.5F);
+    EXPECT_GT(steep->face_normal.dot(steep->normal), 0.9F);
 }
 
 TEST(PictureWood, WithoutColoursEveryMaterialHasItsOwn) {
