@@ -107,12 +107,11 @@ class Strip {
         std::array<Vector2f, 4> uv;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t local = (m_mesh.faces.back()[k] - m_first) / 2;
-            uv[k] = {
-                (m_strip.angle +
-                 (static_cast<float>(local % kColumns) / (kColumns - 1) - 0.5F) * 2 * m_strip.half_width) /
-                    kTwoPi,
-                (m_root + static_cast<float>(local / kColumns) / (kRows - 1) * (m_strip.length + kRoot)) /
-                    kTwoPi};
+            const std::int32_t row = local / kColumns, column = local % kColumns;
+            uv[k] = {(m_strip.angle +
+                      (static_cast<float>(column) / (kColumns - 1) - 0.5F) * 2 * m_strip.half_width) /
+                         kTwoPi,
+                     (m_root + static_cast<float>(row) / (kRows - 1) * (m_strip.length + kRoot)) / kTwoPi};
         }
         m_mesh.corner_uvs.push_back(uv);
     }
