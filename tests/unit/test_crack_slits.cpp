@@ -27,6 +27,7 @@ FractureParameters break_with_cracks(bool flat) {
         p.bundles.angular = {0.9, 0.3, 0.1};
         p.bundles.amplitude = {0.6, 0.5, 0.2};
         p.bundles.slope = {0.3, 0.4, 0.4};
+        p.tissue.heartwood = 0;  // thorns all over the wood
         p.thorns.sapwood_length = 1;
         p.thorns.sapwood_probability = 0.1;
     }

@@ -19,7 +19,6 @@
 namespace windfall::export_ {
 namespace {
 
-namespace fs = std::filesystem;
 using geometry::Vec3;
 using testing::ElementsAre;
 using testing::HasSubstr;
