@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
@@ -11,7 +11,6 @@ namespace {
 
 using geometry::kNoVertex;
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 // Width of the hard rims between smooth parts, in radii.
 constexpr float kRim = 0.015F;
 
@@ -105,8 +104,8 @@ class Wall {
 
     /// Bark: a turn is one unit of u, and 2 pi radii one unit of v, so that textures keep their proportions.
     Vector2f bark_uv(std::size_t column, float z) const {
-        const float turn = column < m_nodes.size() ? m_nodes[column].angle : m_nodes[0].angle + kTwoPi;
-        return {turn / kTwoPi, z / kTwoPi};
+        const float turn = column < m_nodes.size() ? m_nodes[column].angle : m_nodes[0].angle + kTwoPi<float>;
+        return {turn / kTwoPi<float>, z / kTwoPi<float>};
     }
 
     /// Corners counter-clockwise from outside on the stub; the piece's wall is its mirror image.

@@ -4,8 +4,8 @@
 // the cross-section, so that the other end, its reverse, fits it without overlap.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/break_buffers.h"
 #include "fracture/noise.h"
 
@@ -15,7 +15,6 @@ namespace {
 using geometry::Face;
 using geometry::kNoVertex;
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 // How far split vertices move into their own cells, in cells. With the jitter of the nodes (0.10) it stays
 // well below a quarter, so that no cell can turn inside out.
 constexpr float kSplitShift = 0.08F;
@@ -24,7 +23,7 @@ constexpr float kMostShift = 0.25F;
 
 /// Angle by which split vertices of ring `r` move.
 float split_turn(const PolarLattice& lattice, int r) {
-    return std::min(kSplitShift * kTwoPi / static_cast<float>(lattice.sectors),
+    return std::min(kSplitShift * kTwoPi<float> / static_cast<float>(lattice.sectors),
                     kMostShift / static_cast<float>(r));
 }
 
@@ -252,7 +251,7 @@ class FaceMaker {
     }
     /// Walls: along the wall and up, a unit for 2 pi radii as on the bark.
     Vector2f wall_uv(float along, std::int32_t v) const {
-        return {along, m_b.vertices.z[static_cast<std::size_t>(v)] * (1 / kTwoPi)};
+        return {along, m_b.vertices.z[static_cast<std::size_t>(v)] * (1 / kTwoPi<float>)};
     }
 
     void add_top(int r, int s, std::size_t c) {
@@ -268,8 +267,8 @@ class FaceMaker {
 
     /// Between the cell at s - 1 and the one at s.
     void add_ray_wall(int r, const std::array<std::int32_t, 4>& a, const std::array<std::int32_t, 4>& b) {
-        const float inner = static_cast<float>(r) * m_step * (1 / kTwoPi);
-        const float outer = static_cast<float>(r + 1) * m_step * (1 / kTwoPi);
+        const float inner = static_cast<float>(r) * m_step * (1 / kTwoPi<float>);
+        const float outer = static_cast<float>(r + 1) * m_step * (1 / kTwoPi<float>);
         push({a[3], a[2], b[1], b[0]}, Part::Fibres,
              {wall_uv(inner, a[3]), wall_uv(outer, a[2]), wall_uv(outer, b[1]), wall_uv(inner, b[0])});
     }

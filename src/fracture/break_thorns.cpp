@@ -1,8 +1,8 @@
 // Where thorns stand: in the largest block of lattice cells around the middle of their hole.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/break_buffers.h"
 #include "fracture/fringe.h"
 #include "fracture/noise.h"
@@ -11,11 +11,10 @@
 namespace windfall::fracture {
 namespace {
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 // Share of the hole's width and depth that a thorn fills.
 constexpr float kFootprint = 0.75F, kLength = 0.97F;
 // How deep thorns are rooted below the surface, in radii.
-constexpr float kRoot = 0.1F;
+constexpr float kRootDepth = 0.1F;
 constexpr int kStrandSegments = 6;
 // A block of more cells would be no fibre, and its sides no longer straight.
 constexpr int kMostCells = 12;
@@ -44,7 +43,8 @@ class ThornPlacer {
 
     /// Height of an arc of so many sectors over its chord, in rings.
     float sagitta(int ring, int sectors) const {
-        const float width = static_cast<float>(sectors) * kTwoPi / static_cast<float>(m_b.lattice.sectors);
+        const float width =
+            static_cast<float>(sectors) * kTwoPi<float> / static_cast<float>(m_b.lattice.sectors);
         return static_cast<float>(ring) * (1 - std::cos(0.5F * width));
     }
 
@@ -120,7 +120,7 @@ class ThornPlacer {
         ThornShape shape;
         shape.footprint = footprint(block);
         shape.surface = stub ? lowest : highest;
-        shape.root = shape.surface + (stub ? -kRoot : kRoot);
+        shape.root = shape.surface + (stub ? -kRootDepth : kRootDepth);
         shape.tip = shape.surface + kLength * site.length;
         shape.shape = site.shape;
         shape.bundle = m_b.cells.name[cell(site.ring, site.sector)];
@@ -137,7 +137,7 @@ class ThornPlacer {
     /// Freed strands curl each in its own direction and lean outwards.
     Vector2f bend(const ThornShape& shape) const {
         if (m_release <= 0) return Vector2f::Zero();
-        const float angle = kTwoPi * unit_float(mixed_bits(shape.shape + 3));
+        const float angle = kTwoPi<float> * unit_float(mixed_bits(shape.shape + 3));
         const float curl =
             static_cast<float>(m_p.fringe.strand_curl) * unit_float(mixed_bits(shape.shape + 5));
         const Vector2f lean = 0.15F * shape.footprint[0];

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
 namespace {
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 constexpr double kGolden = 0.6180339887498949;
 // The domain warp carries points beyond the bark.
 constexpr float kOuterRadius = 1.45F;
@@ -62,7 +61,7 @@ void BundleTable::lay_out(float radial, float angular) {
         // The golden sequence makes bands of two widths; a wider band has longer bricks, as wood has.
         const float middle = 0.5F * (low + std::min(high, kOuterRadius));
         const float spread = 0.75F + 0.5F * random_unit(m_seed, NoisePurpose::BandOffset, name, 1, m_level);
-        const float bricks = std::max(1.0F, kTwoPi * middle / angular * spread);
+        const float bricks = std::max(1.0F, kTwoPi<float> * middle / angular * spread);
         const float count = std::ceil(bricks);
         const float phase = random_unit(m_seed, NoisePurpose::BandOffset, name, 0, m_level);
         Band band{low, high, phase, bricks - count + 1, name, 0, 0, 0};
@@ -120,7 +119,7 @@ std::size_t BundleTable::index_at(float radius, float angle) {
         while (radius >= m_bands[b].high && b + 1 < m_bands.size()) ++b;
         band = &m_bands[b];
     }
-    float turn = angle * (1 / kTwoPi) + band->phase;
+    float turn = angle * (1 / kTwoPi<float>)+band->phase;
     if (turn >= 1) turn -= 1;
     turn = std::clamp(turn, 0.0F, 0.99999994F);
     const float* starts = m_starts.data() + band->first;
@@ -139,7 +138,7 @@ std::size_t BundleTable::index_at(float radius, float angle) {
 
 /// The plane of a brick between two angles, in turns.
 Bundle BundleTable::plane_of(const Band& band, std::size_t index, float start, float end) const {
-    const float angle = (0.5F * (start + end) - band.phase) * kTwoPi;
+    const float angle = (0.5F * (start + end) - band.phase) * kTwoPi<float>;
     const float radius = 0.5F * (band.low + std::min(band.high, kOuterRadius));
     Bundle bundle;
     bundle.centre_x = radius * std::cos(angle);
@@ -150,7 +149,7 @@ Bundle BundleTable::plane_of(const Band& band, std::size_t index, float start, f
     const float weight = m_tension.weight(bundle.centre_x, bundle.centre_y);
     const float tallness =
         std::pow(random(NoisePurpose::BundleHeight), m_shape.skew) - 1 / (m_shape.skew + 1);
-    const float direction = kTwoPi * random(NoisePurpose::BundleDirection);
+    const float direction = kTwoPi<float> * random(NoisePurpose::BundleDirection);
     const float slope = m_shape.slope * weight * (0.3F + 0.9F * random(NoisePurpose::BundleSlope));
     bundle.slope_x = slope * std::cos(direction);
     bundle.slope_y = slope * std::sin(direction);

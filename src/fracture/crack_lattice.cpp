@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
 namespace {
 
-constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr double kTaper = 0.6;           // openings and depths end as tent^0.6: rounded, not as a rhombus
 constexpr double kCheckTip = 0.1;        // radii from the check's tip to where it is fully open ...
 constexpr double kCheckTipDepth = 0.35;  // ... and fully deep
@@ -39,7 +39,7 @@ double rising(double from_tip, double length) {
 
 }  // namespace
 
-double CrackGrid::sector_angle() const { return kFullTurn / sectors; }
+double CrackGrid::sector_angle() const { return kTwoPi<double> / sectors; }
 
 CrackGrid crack_grid(const FractureParameters& parameters) {
     CrackGrid grid;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
 namespace {
 
-constexpr double kMotionTurn = 2 * std::numbers::pi;
 // Nodes of a broken surface lie up to 0.22 cells off their places; a crack opens only beyond that, so that
 // the vertices where it closes do not move to either side.
 constexpr double kClosed = 0.3;  // cells
@@ -17,7 +16,7 @@ constexpr double kClosed = 0.3;  // cells
 constexpr float kFadesFrom = 0.5F, kFadesTo = 0.98F;
 constexpr double kGentle = 0.7;
 
-double half_turned(double angle) { return angle - kMotionTurn * std::round(angle / kMotionTurn); }
+double half_turned(double angle) { return angle - kTwoPi<double> * std::round(angle / kTwoPi<double>); }
 
 /// Half opening at a place between nodes.
 double opening_at(const LatticeCrack& crack, double along) {
@@ -51,8 +50,8 @@ CrackShift CrackMotion::shift(double radius, double angle, const SurfaceCell& ce
             const bool left = 2 * grid.wrapped_sector(cell.sector - c.line) < grid.sectors;
             // Within a quarter of a turn on the wrong side (of a crooked ray) .. three quarters on the right
             // one.
-            const double aside = c.line * grid.sector_angle() + (left ? 0.25 : -0.25) * kMotionTurn;
-            const double off = half_turned(angle - aside) + (left ? 0.25 : -0.25) * kMotionTurn;
+            const double aside = c.line * grid.sector_angle() + (left ? 0.25 : -0.25) * kTwoPi<double>;
+            const double off = half_turned(angle - aside) + (left ? 0.25 : -0.25) * kTwoPi<double>;
             const double share = c.share_at(left ? off : -off);
             if (share > 0) result.angle += (left ? share : -share) * opening_at(c, radius * grid.rings);
         } else {

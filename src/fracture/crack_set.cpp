@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 #include "fracture/species.h"
 
 namespace windfall::fracture {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kLeastShare = 0.25;         // of its length that must be left to a crack that is shortened
 constexpr double kWidest = 0.2;              // half opening over length
 constexpr double kBarkMargin = 0.01;         // between cracks and the inner bark
@@ -25,10 +24,10 @@ struct ClassOfCracks {
     double first_begin, last_begin;  // where along the ray (tangential: at which radius) its cracks begin
 };
 
-double wrapped(double angle) { return angle - kTurn * std::floor(angle / kTurn); }
+double wrapped(double angle) { return angle - kTwoPi<double> * std::floor(angle / kTwoPi<double>); }
 
 /// The difference of two angles, in -pi .. pi.
-double turned(double angle) { return angle - kTurn * std::round(angle / kTurn); }
+double turned(double angle) { return angle - kTwoPi<double> * std::round(angle / kTwoPi<double>); }
 
 struct Interval {
     double low, high;
@@ -59,7 +58,7 @@ class CrackDrawer {
     void add_check() {
         Crack check;
         check.rank = CrackRank::Check;
-        check.line = wrapped(m_p.cracks.check_angle_deg * kTurn / 360);
+        check.line = wrapped(m_p.cracks.check_angle_deg * kTwoPi<double> / 360);
         check.begin = 0.02;
         check.end = 1;
         check.depth = m_p.cracks.check_depth * m_wet.crack_depth;
@@ -73,9 +72,10 @@ class CrackDrawer {
         const auto count =
             static_cast<std::uint32_t>(std::llround(static_cast<double>(c.asked.count) * m_wet.crack_count));
         if (count == 0) return;
-        const double even = kTurn / count;
-        const double gap = c.asked.gap_deg > 0 ? std::min(even, c.asked.gap_deg * kTurn / 360) : even;
-        const double start = kTurn * number(c, CrackNumber::Start, 0);
+        const double even = kTwoPi<double> / count;
+        const double gap =
+            c.asked.gap_deg > 0 ? std::min(even, c.asked.gap_deg * kTwoPi<double> / 360) : even;
+        const double start = kTwoPi<double> * number(c, CrackNumber::Start, 0);
         for (std::uint32_t k = 0; k < count; ++k) {
             Crack crack;
             crack.rank = c.rank;
@@ -107,7 +107,8 @@ class CrackDrawer {
         const double free_radius =
             c.first_begin + (c.last_begin - c.first_begin) * number(c, CrackNumber::Begin, crack.index);
         crack.line = at_border ? border : free_radius * std::max(0.0, m_wood);
-        const double angles = crack.line > 0 ? std::min(length / crack.line, kLongestRing * kTurn) : 0;
+        const double angles =
+            crack.line > 0 ? std::min(length / crack.line, kLongestRing * kTwoPi<double>) : 0;
         crack.begin = wrapped(angle - 0.5 * angles);
         crack.end = crack.begin + angles;
     }
@@ -176,7 +177,7 @@ class CrackDrawer {
         if (crack.line < other.begin - m_room.along_ray || crack.line > other.end + m_room.along_ray) return;
         const double middle = 0.5 * (crack.begin + crack.end);
         const double at = middle + turned(other.line - middle), room = angle_room(crack.line);
-        for (const double turn : {-kTurn, 0.0, kTurn})
+        for (const double turn : {-kTwoPi<double>, 0.0, kTwoPi<double>})
             blocked.push_back({at + turn - room, at + turn + room});
     }
 
@@ -185,7 +186,7 @@ class CrackDrawer {
         const double middle = 0.5 * (crack.begin + crack.end);
         const double at = middle + turned(0.5 * (other.begin + other.end) - middle);
         const double half = 0.5 * (other.end - other.begin) + angle_room(crack.line);
-        for (const double turn : {-kTurn, 0.0, kTurn})
+        for (const double turn : {-kTwoPi<double>, 0.0, kTwoPi<double>})
             blocked.push_back({at + turn - half, at + turn + half});
     }
 
@@ -212,7 +213,7 @@ bool limit_width(Crack& crack) {
 double check_opening(const FractureParameters& parameters) {
     const WoodProperties wood = wood_properties(parameters.species);
     const double difference = std::max(0.0, wood.shrinkage_tangential - wood.shrinkage_radial);
-    return difference * kTurn * parameters.cracks.check_relief *
+    return difference * kTwoPi<double> * parameters.cracks.check_relief *
            moisture_effect(parameters.species.moisture).crack_width;
 }
 

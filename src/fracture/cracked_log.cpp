@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/crack_shape.h"
 #include "fracture/crack_walls.h"
 #include "fracture/noise.h"
@@ -14,7 +14,6 @@ namespace {
 using geometry::Face;
 using VertexIndex = std::int32_t;
 
-constexpr double kLogTurn = 2 * std::numbers::pi;
 constexpr double kRowOfWall = 0.12;  // radii: rows of faces on a crack's wall are about as high
 constexpr double kPatch = 0.03;      // radii: size of the fibre bundles that colours vary between
 
@@ -74,7 +73,7 @@ class LogMaker {
     std::uint32_t bundle_of(int ring, int sector) const {
         const double radius = ring / static_cast<double>(m_grid.rings);
         const auto band = static_cast<std::uint32_t>(radius / kPatch);
-        const double around = std::max(1.0, std::floor(kLogTurn * (band + 0.5)));
+        const double around = std::max(1.0, std::floor(kTwoPi<double> * (band + 0.5)));
         const auto brick = static_cast<std::uint32_t>(sector * around / m_grid.sectors);
         return noise_key(m_seed, NoisePurpose::BundleName, band, brick, 63);
     }
@@ -186,7 +185,7 @@ class LogMaker {
     void add_bark() {
         const auto uv = [&](int s, VertexIndex v) {
             return Vector2f(static_cast<float>(s / static_cast<double>(m_grid.sectors)),
-                            static_cast<float>(m_mesh.height[static_cast<std::size_t>(v)] / kLogTurn));
+                            static_cast<float>(m_mesh.height[static_cast<std::size_t>(v)] / kTwoPi<double>));
         };
         for (int s = 0; s < m_grid.sectors; ++s) {
             const auto here = static_cast<std::size_t>(s),

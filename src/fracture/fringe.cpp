@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
 namespace {
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 constexpr int kRows = 24, kColumns = 11;
 // Thickness of a strip, and how far below the notch it is rooted, in radii.
 constexpr float kThickness = 0.04F, kRoot = 0.15F;
 
-float between(float a, float b) { return std::abs(std::remainder(a - b, kTwoPi)); }
+float between(float a, float b) { return std::abs(std::remainder(a - b, kTwoPi<float>)); }
 
 /// The lowest point of the stub's broken edge within the strip.
 float notch(const BarkStrip& strip, const BreakEnds& ends) {
@@ -108,10 +107,11 @@ class Strip {
         for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t local = (m_mesh.faces.back()[k] - m_first) / 2;
             const std::int32_t row = local / kColumns, column = local % kColumns;
-            uv[k] = {(m_strip.angle +
-                      (static_cast<float>(column) / (kColumns - 1) - 0.5F) * 2 * m_strip.half_width) /
-                         kTwoPi,
-                     (m_root + static_cast<float>(row) / (kRows - 1) * (m_strip.length + kRoot)) / kTwoPi};
+            uv[k] = {
+                (m_strip.angle +
+                 (static_cast<float>(column) / (kColumns - 1) - 0.5F) * 2 * m_strip.half_width) /
+                    kTwoPi<float>,
+                (m_root + static_cast<float>(row) / (kRows - 1) * (m_strip.length + kRoot)) / kTwoPi<float>};
         }
         m_mesh.corner_uvs.push_back(uv);
     }
@@ -132,7 +132,7 @@ std::vector<BarkStrip> bark_strips(const FractureParameters& parameters) {
     std::vector<BarkStrip> strips;
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(f.strips); ++k) {
         const auto random = [&](std::uint32_t j) { return random_unit(seed, NoisePurpose::Strip, k, j); };
-        const BarkStrip strip{kTwoPi * random(0),
+        const BarkStrip strip{kTwoPi<float> * random(0),
                               0.5F * static_cast<float>(f.strip_width) * (0.7F + 0.6F * random(1)),
                               static_cast<float>(f.strip_length) * (0.6F + 0.8F * random(2)),
                               noise_key(seed, NoisePurpose::Strip, k, 4) | 1U};

@@ -1,4 +1,5 @@
 #include "fracture/tree_wall.h"
+#include "core/angles.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,11 +12,10 @@ namespace {
 using geometry::kNoVertex;
 using geometry::Vec3;
 
-constexpr double kTurnOfAngle = 2 * std::numbers::pi;
 // Between the last row and the broken edge, and between the cut and the first row, in radii.
 constexpr double kEdgeGap = 0.015, kFirstRow = 0.05;
 
-double turned_to(double angle, double near) { return near + std::remainder(angle - near, kTurnOfAngle); }
+double turned_to(double angle, double near) { return near + std::remainder(angle - near, kTwoPi<double>); }
 
 class BarkMaker {
   public:
@@ -101,7 +101,7 @@ class BarkMaker {
             last.push_back((m_down < 0 ? std::min(a, b) : std::max(a, b)) + m_down * kEdgeGap * m_plan.unit);
             longest = std::max(longest, std::abs(last.back() - first));
         }
-        const double sector = kTurnOfAngle * m_plan.unit / static_cast<double>(m_plan.nodes.size());
+        const double sector = kTwoPi<double> * m_plan.unit / static_cast<double>(m_plan.nodes.size());
         m_rows = static_cast<std::size_t>(
             std::clamp(std::ceil(longest / (2 * sector)), 3.0,
                        static_cast<double>(std::max<std::size_t>(m_plan.most_rows, 3))));
@@ -125,7 +125,7 @@ class BarkMaker {
         const auto angle = [&](std::int32_t v) { return m_bark.vertices[static_cast<std::size_t>(v)].angle; };
         // Start at the loop's point that follows the first column.
         std::size_t start = 0;
-        double least = kTurnOfAngle;
+        double least = kTwoPi<double>;
         for (std::size_t i = 0; i < loop; ++i) {
             const double ahead =
                 turned_to(angle(static_cast<std::int32_t>(i)) - angle(at(0, 0)), std::numbers::pi);
@@ -136,11 +136,11 @@ class BarkMaker {
         const auto loop_vertex = [&](std::size_t i) { return static_cast<std::int32_t>((start + i) % loop); };
         // Angles from the first column on; those of both rings rise from vertex to vertex.
         const auto loop_angle = [&](std::size_t i) {
-            const double turns = start + i >= loop ? kTurnOfAngle : 0;
+            const double turns = start + i >= loop ? kTwoPi<double> : 0;
             return least + angle(loop_vertex(i)) - angle(static_cast<std::int32_t>(start)) + turns;
         };
         const auto node_angle = [&](std::size_t s) {
-            return angle(at(s, 0)) - angle(at(0, 0)) + (s == nodes ? kTurnOfAngle : 0.0);
+            return angle(at(s, 0)) - angle(at(0, 0)) + (s == nodes ? kTwoPi<double> : 0.0);
         };
         std::size_t i = 0, s = 0;
         while (i < loop || s < nodes) {
