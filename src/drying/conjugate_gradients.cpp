@@ -6,7 +6,7 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 14U;
+constexpr std::size_t kVectorBlock = std::size_t{1} << 14U;
 
 /// Sum over a block with eight running sums, which vectorises without changing with the optimiser's mood.
 template <class Term>
@@ -21,7 +21,7 @@ double block_sum(std::size_t begin, std::size_t end, Term term) {
 }
 
 double dot(const AlignedArray<float>& a, const AlignedArray<float>& b) {
-    return parallel_sum(a.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    return parallel_sum(a.size(), kVectorBlock, [&](std::size_t begin, std::size_t end) {
         const float* pa = a.data();
         const float* pb = b.data();
         return block_sum(begin, end, [=](std::size_t i) { return static_cast<double>(pa[i]) * pb[i]; });
@@ -30,7 +30,7 @@ double dot(const AlignedArray<float>& a, const AlignedArray<float>& b) {
 
 template <class Body>
 void for_blocks(std::size_t size, const Body& body) {
-    parallel_blocks(size, kBlock, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(size, kVectorBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) body(i);
     });
 }
@@ -48,7 +48,7 @@ ConjugateGradients::ConjugateGradients(Multigrid& multigrid, const AlignedArray<
 
 double ConjugateGradients::mass_dot(const AlignedArray<float>& a, const AlignedArray<float>& b) const {
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
-    return parallel_sum(m_mass.size() / layers, kBlock / 64, [&](std::size_t begin, std::size_t end) {
+    return parallel_sum(m_mass.size() / layers, kVectorBlock / 64, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t column = begin; column < end; ++column) {
             const float* mass = m_mass.data() + column * layers;

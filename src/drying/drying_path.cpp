@@ -23,7 +23,7 @@ constexpr int kFastNewton = 4;
 constexpr int kSlowNewton = 6;
 constexpr double kOnsetDepth = 0.1;  // of t_e
 
-double norm(const AlignedArray<double>& a) {
+double norm_of(const AlignedArray<double>& a) {
     double sum = 0;
     for (const double x : a) sum += x * x;
     return std::sqrt(sum);
@@ -52,7 +52,7 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     AlignedArray<double> force(m_elasticity->size());
     m_elasticity->set_drying(m_drying.at(kReferenceShrinkage));
     m_elasticity->energy(m_state.displacements.front(), &force);
-    m_reference_force = norm(force) / parameters.material.bulk_ratio;
+    m_reference_force = norm_of(force) / parameters.material.bulk_ratio;
 }
 
 double DryingPath::onset() const {

@@ -9,12 +9,12 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 13U;
+constexpr std::size_t kNewtonBlock = std::size_t{1} << 13U;
 // A step may leave the potential higher by its rounding error, no more.
 constexpr double kRounding = 1e-12;
 
 double norm(const AlignedArray<double>& a) {
-    return std::sqrt(parallel_sum(a.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    return std::sqrt(parallel_sum(a.size(), kNewtonBlock, [&](std::size_t begin, std::size_t end) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i) sum += a[i] * a[i];
         return sum;
@@ -45,7 +45,7 @@ double NewtonSolver::damping_energy(const AlignedArray<double>& displacement, co
     const AlignedArray<double>& mass = m_elasticity.mass();
     const AlignedArray<double>& from = *damping.from;
     const std::size_t columns = mass.size() / layers;
-    const double sum = parallel_sum(columns, kBlock / 16, [&](std::size_t begin, std::size_t end) {
+    const double sum = parallel_sum(columns, kNewtonBlock / 16, [&](std::size_t begin, std::size_t end) {
         double partial = 0;
         for (std::size_t c = begin; c < end; ++c)
             for (std::size_t i = 0; i < 3; ++i)
@@ -81,7 +81,7 @@ double NewtonSolver::potential(const AlignedArray<double>& displacement, const D
 LinearResult NewtonSolver::linear_step(const State& at, double tolerance, int max_iterations, double radius,
                                        double reference_force, const RunContext& context) {
     const PhaseTimer timer(m_times.linear_solver_s);
-    parallel_blocks(m_right.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(m_right.size(), kNewtonBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             m_right[i] = static_cast<float>(-at.force[i] / reference_force);
     });
@@ -117,7 +117,7 @@ LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, 
 }
 
 void NewtonSolver::take_step(const State& from, State& to, double reference_force) const {
-    parallel_blocks(m_step.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(m_step.size(), kNewtonBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             to.displacement[i] = from.displacement[i] + reference_force * static_cast<double>(m_step[i]);
     });

@@ -15,7 +15,8 @@ namespace {
 constexpr float kFootprint = 0.75F, kLength = 0.97F;
 // How deep thorns are rooted below the surface, in radii.
 constexpr float kRootDepth = 0.1F;
-constexpr int kStrandSegments = 6;
+// Pieces of a strand on fine lattices. On coarse ones the strands would be most of the mesh: these get fewer.
+constexpr int kFewestPieces = 4, kMostPieces = 6, kRingsPerPiece = 10;
 // A block of more cells would be no fibre, and its sides no longer straight.
 constexpr int kMostCells = 12;
 
@@ -127,7 +128,8 @@ class ThornPlacer {
         shape.tissue = m_b.cells.tissue[cell(site.ring, site.sector)];
         if (site.strand) {
             thin(shape);
-            add_strand(shape, kStrandSegments, bend(shape), mesh);
+            add_strand(shape, std::clamp(m_b.lattice.rings / kRingsPerPiece, kFewestPieces, kMostPieces),
+                       bend(shape), mesh);
         } else {
             add_thorn(shape, mesh);
         }

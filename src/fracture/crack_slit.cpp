@@ -36,7 +36,6 @@ void insert_vertices(BranchMesh& mesh, std::size_t old_count, const std::vector<
         values.insert(values.begin() + static_cast<std::ptrdiff_t>(old_count), copies.begin(), copies.end());
     };
     insert(mesh.positions);
-    insert(mesh.normals);
     insert(mesh.height);
     insert(mesh.thorn);
     insert(mesh.tissue);

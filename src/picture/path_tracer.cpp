@@ -33,11 +33,11 @@ class FlushDenormals {
     unsigned m_before;
 };
 
-struct View {
+struct Eye {
     Vec3f eye, forward, right, up;
     float half_height;  // of the picture at distance 1
 
-    explicit View(const Camera& camera) {
+    explicit Eye(const Camera& camera) {
         const double rad = std::numbers::pi / 180;
         const double azimuth = camera.azimuth_deg * rad, elevation = camera.elevation_deg * rad;
         const Vec3f back(static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
@@ -137,7 +137,7 @@ class Renderer {
     RenderSettings m_settings;
     Surfaces m_surfaces;
     Integrator m_integrator;
-    View m_view;
+    Eye m_view;
     std::vector<PixelSums> m_sums;
 };
 

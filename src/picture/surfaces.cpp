@@ -31,6 +31,8 @@ struct Surfaces::Handles {
 
 namespace {
 
+/// Cosine between the normals of a facet and of its corner from which on the two belong to one smooth surface.
+constexpr float kSmooth = 0.7F;
 /// Cosine between the normals of a quadrilateral and its triangles above which it counts as flat.
 constexpr float kFlat = 0.9F;
 
@@ -62,6 +64,19 @@ RTCRay to_embree(const Ray& ray) {
     r.tfar = ray.to;
     r.mask = ~0U;
     return r;
+}
+
+/// A smooth normal that is of use: over the facet, and towards the eye where the facet is. On needles and at
+/// the feet of steep steps the normals of the vertices look away from either, and the facet would be black.
+Vec3f seen_normal(const Vec3f& smooth, const Vec3f& face_normal, const Vec3f& to_eye) {
+    constexpr float kLeastCosine = 0.05F;
+    Vec3f normal = smooth;
+    for (const Vec3f& side : {face_normal, to_eye}) {
+        const float cosine = normal.dot(side);
+        if (cosine < kLeastCosine && face_normal.dot(side) > 0)
+            normal = (normal + (kLeastCosine - cosine) * side).normalized();
+    }
+    return normal;
 }
 
 }  // namespace
@@ -138,24 +153,24 @@ std::optional<SurfacePoint> Surfaces::first_hit(const Ray& ray) const {
         point.normal += weights[k] * mesh.normals[corners[k]];
         point.albedo += weights[k] * mesh.albedo[corners[k]];
     }
-    point.face_normal = Vec3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z).normalized();
+    const Vec3f& origin = mesh.positions[corners[0]];
+    point.face_normal =
+        (mesh.positions[corners[1]] - origin).cross(mesh.positions[corners[2]] - origin).normalized();
     if (point.finish->hard) {
-        const Vec3f& origin = mesh.positions[corners[0]];
-        point.face_normal =
-            (mesh.positions[corners[1]] - origin).cross(mesh.positions[corners[2]] - origin).normalized();
         // of the whole quadrilateral, so that its diagonal is not seen, unless it is bent
         const Vec3f whole = facet_area(mesh.positions, quad).normalized();
         point.normal = whole.dot(point.face_normal) > kFlat ? whole : point.face_normal;
         point.start = point.place + m_lift * point.face_normal;
         return point;
     }
-    point.normal.normalize();
-    if (point.face_normal.dot(point.normal) < 0) point.face_normal = -point.face_normal;
+    point.normal = seen_normal(point.normal.normalized(), point.face_normal, -ray.direction);
     // Hanika, "Hacking the shadow terminator" (2021): start from the tangent planes at the corners, not from
     // the facet.
     point.start = point.place + m_lift * point.face_normal;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3f& n = mesh.normals[corners[k]];
+        // A tangent plane that is steep against the facet would lift the start into what stands next to it.
+        if (n.dot(point.face_normal) < kSmooth) continue;
         point.start -= weights[k] * std::min(0.0F, (point.place - mesh.positions[corners[k]]).dot(n)) * n;
     }
     return point;

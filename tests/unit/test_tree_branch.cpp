@@ -69,7 +69,7 @@ TEST(TreeSection, AreaAndCentroidOfAnEllipse) {
     EXPECT_NEAR((section.centroid - Vec3(0, 0.77, 0)).norm(), 0, 1e-9);
     EXPECT_TRUE(section.encloses({0.1, 0.77, 0}));
     EXPECT_FALSE(section.encloses({0.1, 0.77, 0.15}));
-    EXPECT_NEAR(section.outer_radius(section.centroid), 0.2, 1e-9);
+    EXPECT_NEAR(section.outer_radius(section.centroid), 0.2, 1e-8);  // crossings are single precision
     EXPECT_NEAR(section.distance(section.centroid), 0.1, 1e-3);
 }
 
