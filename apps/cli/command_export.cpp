@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "export/export_take.h"
 #include "progress.h"
+#include "recipe/dressing.h"
 #include "recipe/export_calculix.h"
 
 namespace windfall::cli {
@@ -68,6 +69,7 @@ void export_formats(const ExportOptions& options) {
     settings.scale = options.scale;
     settings.overwrite = options.force;
     settings.frames_per_second = options.frames_per_second;
+    settings.dress = recipe::dressing(take);
     std::vector<std::filesystem::path> files;
     for (const std::string& name : options.formats) {
         if (name == kCalculix) {
@@ -110,6 +112,7 @@ void add_export(CLI::App& app) {
         "  windfall export jujube-seed1.take --to glb -o jujube.glb\n"
         "  windfall export jujube-seed1.take --to obj,ply --frame 6\n"
         "  windfall export jujube-seed1.take --to obj --scale 100 -o frames\n"
+        "  windfall export orange-seed1.take --to maps --frame 200\n"
         "  windfall export jujube-seed1.take --to inp       the recipe as a CalculiX deck");
     command->callback([options] { export_formats(*options); });
 }

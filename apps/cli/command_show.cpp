@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "picture/show_take.h"
 #include "progress.h"
+#include "recipe/dressing.h"
 #include "recipe/look_setting.h"
 
 namespace windfall::cli {
@@ -39,6 +40,7 @@ void show(ShowOptions options) {
     context.cancel = &cancel_on_signals();
     context.on_progress = [&](const Progress& progress) { printer->progress(progress); };
     const take::TakeReader take(options.take);
+    options.show.dress = recipe::dressing(take);
     const picture::ShowOutput output = picture::show_take(take, options.show, context);
     if (!output.note.empty()) printer->warning(output.note);
     // Of a movie's many frames only the movie is worth naming.

@@ -7,6 +7,7 @@ namespace windfall::cli {
 
 void add_dry(CLI::App& app);
 void add_snap(CLI::App& app);
+void add_rot(CLI::App& app);
 void add_presets(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_doctor(CLI::App& app);

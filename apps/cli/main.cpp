@@ -1,5 +1,6 @@
 // The program `windfall`: arguments in, exit code out.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -22,6 +23,8 @@ int report(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
     using namespace windfall;
+    // A write beyond the limit on the size of files then fails with EFBIG, which is told, and kills nobody.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(
         "Windfall ages plants on a computer: it dries fruit until the skin wrinkles, and breaks branches.");
     app.name("windfall");
@@ -38,6 +41,7 @@ int main(int argc, char** argv) {
         "130 cancelled.");
     cli::add_dry(app);
     cli::add_snap(app);
+    cli::add_rot(app);
     cli::add_show(app);
     cli::add_export(app);
     cli::add_measure(app);

@@ -13,6 +13,8 @@ enum class RandomPurpose : std::uint32_t {
     LanczosStart = 3,
     PictureSample = 4,
     PictureMottle = 5,
+    RotWounds = 6,
+    PileSizes = 7,
 };
 
 /// Four independent numbers, uniform in [0, 1), for (seed, purpose, index, sub_index).

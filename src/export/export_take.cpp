@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/curves_to_export.h"
 #include "export/glb.h"
+#include "export/maps.h"
 #include "export/meshes_of_take.h"
 #include "export/obj.h"
 #include "export/ply.h"
@@ -27,6 +29,7 @@ struct Job {
     fs::path path;
     std::string material_file = {};  // OBJ: the file with the materials, beside it
     bool is_material_file = false;
+    bool is_hair_file = false;  // PLY: the hair, beside the meshes
 };
 
 void check(const take::TakeReader& take, const ExportOptions& options) {
@@ -58,6 +61,13 @@ std::string file_stem(const std::string& name) {
     return stem;
 }
 
+// A take has hair when its last frame has, where the most of it is.
+bool has_hair(const take::TakeReader& take, const ExportOptions& options) {
+    take::Frame frame = take.frame(options.frame.value_or(take.frame_count() - 1));
+    if (options.dress) options.dress(frame);
+    return !frame.curves.empty();
+}
+
 std::vector<Job> plan_jobs(const take::TakeReader& take, const ExportOptions& options) {
     const std::string suffix = extension(options.format);
     const bool to_file = options.output.extension() == suffix;
@@ -75,10 +85,12 @@ std::vector<Job> plan_jobs(const take::TakeReader& take, const ExportOptions& op
         material_file = stem + ".mtl";  // one for all frames
         jobs.push_back({first, first, folder / material_file, "", true});
     }
-    for (int frame = first; frame <= (animated ? first : last); ++frame)
-        jobs.push_back({frame, animated ? last : frame,
-                        folder / (stem + (numbered ? fmt::format("_{:04}", frame) : "") + suffix),
-                        material_file});
+    const bool hair_files = options.format == ExportFormat::Ply && has_hair(take, options);
+    for (int frame = first; frame <= (animated ? first : last); ++frame) {
+        const std::string name = stem + (numbered ? fmt::format("_{:04}", frame) : "");
+        jobs.push_back({frame, animated ? last : frame, folder / (name + suffix), material_file});
+        if (hair_files) jobs.push_back({frame, frame, folder / (name + "_hair" + suffix), "", false, true});
+    }
     return jobs;
 }
 
@@ -108,7 +120,7 @@ std::vector<MeshToAnimate> animated_meshes(const take::TakeReader& take, std::ve
         context.throw_if_cancelled();
         context.progress({"export", static_cast<double>(index), static_cast<double>(job.last_frame + 1), -1,
                           job.path.filename().string()});
-        auto shapes = shapes_at(meshes, take.frame(index), metres);
+        auto shapes = shapes_at(meshes, take.frame_without_map_values(index), metres);
         for (std::size_t m = 0; m < shapes.size(); ++m)
             animated[m].later_frames.push_back(std::move(shapes[m]));
     }
@@ -121,25 +133,32 @@ std::vector<MeshToAnimate> animated_meshes(const take::TakeReader& take, std::ve
 std::vector<std::byte> file_bytes(const take::TakeReader& take, const Job& job, const ExportOptions& options,
                                   const RunContext& context) {
     const double metres = take.info().unit_length_m * options.scale;
-    auto meshes = meshes_at(take, take.frame(job.first_frame), metres);
+    const bool animated = job.last_frame > job.first_frame;
+    take::Frame frame = options.dress && !animated ? take.frame(job.first_frame)
+                                                   : take.frame_without_map_values(job.first_frame);
+    if (options.dress && !animated) options.dress(frame);
+    const auto curves = animated ? std::vector<CurvesToExport>() : curves_at(frame, metres);
+    if (job.is_hair_file) return curves_ply_bytes(curves);
+    auto meshes = meshes_at(take, frame, metres);
     if (meshes.empty()) throw InputError(fmt::format("{} has no faces to export", take.folder().string()));
     if (job.is_material_file) return bytes_of(mtl_text(meshes));
     switch (options.format) {
         case ExportFormat::Obj:
-            return bytes_of(obj_text(meshes, job.material_file));
+            return bytes_of(obj_text(meshes, job.material_file, curves));
         case ExportFormat::Ply:
             return ply_bytes(meshes);
         case ExportFormat::Glb:
+        case ExportFormat::Maps:
             break;
     }
     return glb_bytes(animated_meshes(take, std::move(meshes), job, metres, context),
-                     options.frames_per_second);
+                     options.frames_per_second, curves);
 }
 
 }  // namespace
 
 const std::vector<std::string>& export_format_names() {
-    static const std::vector<std::string> names = {"obj", "ply", "glb"};
+    static const std::vector<std::string> names = {"obj", "ply", "glb", "maps"};
     return names;
 }
 
@@ -154,6 +173,7 @@ ExportFormat export_format(const std::string& name) {
 std::vector<fs::path> export_take(const take::TakeReader& take, const ExportOptions& options,
                                   const RunContext& context) {
     check(take, options);
+    if (options.format == ExportFormat::Maps) return export_maps(take, options, context);
     const auto jobs = plan_jobs(take, options);
     check_free(jobs, options.overwrite);
     if (const fs::path folder = jobs.front().path.parent_path(); !folder.empty())

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,9 +10,10 @@
 
 namespace windfall::export_ {
 
-enum class ExportFormat { Obj, Ply, Glb };
+enum class ExportFormat { Obj, Ply, Glb, Maps };
 
-/// "obj", "ply", "glb", in the order of ExportFormat; also the extension of the files.
+/// "obj", "ply", "glb", "maps", in the order of ExportFormat; the first three are the extensions of the
+/// files, too.
 const std::vector<std::string>& export_format_names();
 
 /// InputError with the known names for any other text.
@@ -26,12 +28,15 @@ struct ExportOptions {
     double scale = 1;               ///< lengths are written in metres times this; finite and > 0
     bool overwrite = false;         ///< without it a file that exists is an InputError
     double frames_per_second = 24;  ///< GLB with all frames: each frame of the take is one frame of the film
+    /// Adds to a frame what its take does not keep and others want (decay: shading maps, mold); may be empty.
+    std::function<void(take::Frame&)> dress = {};
 };
 
 /// Writes frames of a take to files, Y up (the axis of the fruit or branch is y), each file whole or not at
 /// all and with all meshes in it. An OBJ of several materials has one file STEM.mtl beside it, for all
-/// frames. All names are checked before the first file is written. Returns the files in the order in which
-/// they were written.
+/// frames. Hair is in OBJ as lines, in a still GLB as line primitives, beside PLY in a file STEM_hair.ply;
+/// animated GLB has none, since its strands come and go. Maps: see maps.h. All names are checked before the
+/// first file is written. Returns the files in the order in which they were written.
 std::vector<std::filesystem::path> export_take(const take::TakeReader& take, const ExportOptions& options,
                                                const RunContext& context);
 

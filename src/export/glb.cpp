@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/version.h"
+#include "export/glb_curves.h"
 #include "export/glb_part.h"
 
 namespace windfall::export_ {
@@ -129,24 +130,29 @@ void add_animation(tinygltf::Model& model, BufferBuilder& buffer, std::size_t ta
     model.animations.push_back(std::move(animation));
 }
 
+void add_node(tinygltf::Model& model, tinygltf::Scene& scene, tinygltf::Mesh mesh) {
+    tinygltf::Node node;
+    node.name = mesh.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(mesh));
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(std::move(node));
+}
+
 }  // namespace
 
-std::vector<std::byte> glb_bytes(std::span<const MeshToAnimate> meshes, double frames_per_second) {
+std::vector<std::byte> glb_bytes(std::span<const MeshToAnimate> meshes, double frames_per_second,
+                                 std::span<const CurvesToExport> curves) {
     const Materials materials(meshes);
     tinygltf::Model model;
     BufferBuilder buffer(model);
     tinygltf::Scene scene;
-    for (const MeshToAnimate& animated : meshes) {
-        const auto index = static_cast<int>(model.meshes.size());
-        model.meshes.push_back(gltf_mesh(buffer, animated, materials));
-        tinygltf::Node node;
-        node.name = animated.mesh.name;
-        node.mesh = index;
-        model.nodes.push_back(std::move(node));
-        scene.nodes.push_back(index);
-    }
+    for (const MeshToAnimate& animated : meshes)
+        add_node(model, scene, gltf_mesh(buffer, animated, materials));
     if (const std::size_t targets = meshes.front().later_frames.size(); targets > 0)
         add_animation(model, buffer, targets, frames_per_second);
+    for (const CurvesToExport& hair : curves)
+        if (!hair.points.empty()) add_node(model, scene, gltf_curves(buffer, hair));
     for (const ExportMaterial& material : materials.all()) model.materials.push_back(gltf_material(material));
     model.scenes.push_back(std::move(scene));
     model.defaultScene = 0;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "export/curves_to_export.h"
 #include "export/mesh_to_export.h"
 
 namespace windfall::export_ {
@@ -25,8 +26,10 @@ struct MeshToAnimate {
 /// animation that shows `mesh` at 0 s and later_frames[i] at (i + 1) / frames_per_second, straight in
 /// between. Attributes become _NAME, as float vertex data; the colour becomes COLOR_0, which the base colour
 /// multiplies. Hard faces have vertices of their own with their normals; where there are later frames they
-/// have no normals instead, which the standard defines as flat shading in every frame. InputError when the
-/// file would not fit into 2 GiB.
-std::vector<std::byte> glb_bytes(std::span<const MeshToAnimate> meshes, double frames_per_second = 24);
+/// have no normals instead, which the standard defines as flat shading in every frame. Curves become nodes
+/// with a LINES primitive: positions, COLOR_0, and the radius in metres as _RADIUS. InputError when the file
+/// would not fit into 2 GiB.
+std::vector<std::byte> glb_bytes(std::span<const MeshToAnimate> meshes, double frames_per_second = 24,
+                                 std::span<const CurvesToExport> curves = {});
 
 }  // namespace windfall::export_

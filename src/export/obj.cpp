@@ -83,9 +83,20 @@ void append_faces(fmt::memory_buffer& text, const MeshToExport& mesh, const Text
     }
 }
 
+void append_curves(fmt::memory_buffer& text, const CurvesToExport& curves, std::size_t vertices_before) {
+    fmt::format_to(std::back_inserter(text), "o {}\n", curves.name);
+    for (const auto& point : curves.points) append_numbers(text, "v", point.cast<double>());
+    for (std::size_t point = 0; point < curves.points.size(); ++point) {
+        const auto points_a_strand = static_cast<std::size_t>(curves.points_per_strand);
+        fmt::format_to(std::back_inserter(text), "{} {}{}", point % points_a_strand == 0 ? "l" : "",
+                       vertices_before + point + 1, (point + 1) % points_a_strand == 0 ? "\n" : "");
+    }
+}
+
 }  // namespace
 
-std::string obj_text(std::span<const MeshToExport> meshes, const std::string& material_file) {
+std::string obj_text(std::span<const MeshToExport> meshes, const std::string& material_file,
+                     std::span<const CurvesToExport> curves) {
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), "# Windfall; metres, Y up\n");
     if (!material_file.empty()) fmt::format_to(std::back_inserter(text), "mtllib {}\n", material_file);
@@ -103,6 +114,10 @@ std::string obj_text(std::span<const MeshToExport> meshes, const std::string& ma
         before.vertices += mesh.positions.size();
         before.uvs += texture.uvs.size();
         before.normals += mesh.normals.size() + mesh.face_normals.size();
+    }
+    for (const CurvesToExport& hair : curves) {
+        append_curves(text, hair, before.vertices);
+        before.vertices += hair.points.size();
     }
     return fmt::to_string(text);
 }

@@ -141,4 +141,35 @@ std::vector<std::byte> ply_bytes(std::span<const MeshToExport> meshes) {
     return bytes;
 }
 
+std::vector<std::byte> curves_ply_bytes(std::span<const CurvesToExport> curves) {
+    std::size_t points = 0, edges = 0;
+    for (const CurvesToExport& hair : curves) {
+        points += hair.points.size();
+        edges += hair.points.size() - hair.radii.size();
+    }
+    const std::string text = fmt::format(
+        "ply\nformat binary_little_endian 1.0\ncomment Windfall; metres, Y up\nelement vertex {}\n"
+        "property float x\nproperty float y\nproperty float z\nproperty float radius\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n",
+        points, edges);
+    const auto head = std::as_bytes(std::span(text));
+    std::vector<std::byte> bytes(head.begin(), head.end());
+    for (const CurvesToExport& hair : curves)
+        for (std::size_t point = 0; point < hair.points.size(); ++point) {
+            for (int k = 0; k < 3; ++k) append(bytes, hair.points[point][k]);
+            append(bytes, hair.radii[hair.strand_of(point)]);
+            for (int k = 0; k < 3; ++k)
+                append(bytes, static_cast<std::uint8_t>(std::lround(
+                                  255 * srgb_from_linear(hair.colours[hair.strand_of(point)][k]))));
+        }
+    std::int32_t first = 0;
+    for (const CurvesToExport& hair : curves) {
+        for (const auto& segment : segments_of(hair))
+            for (const std::uint32_t end : segment) append(bytes, first + static_cast<std::int32_t>(end));
+        first += static_cast<std::int32_t>(hair.points.size());
+    }
+    return bytes;
+}
+
 }  // namespace windfall::export_

@@ -39,12 +39,28 @@ SceneMesh bare_mesh(const Channels& fine, const Refinement& refinement) {
     return result;
 }
 
+void add_finish(SceneMesh& mesh, const Look& look, float radius, const Channels& fine) {
+    Finish& finish = mesh.finishes[0];
+    finish.roughness = static_cast<float>(look.roughness);
+    finish.gloss = static_cast<float>(look.gloss);
+    for (int c = 0; c < 3; ++c)
+        finish.scatter[c] =
+            static_cast<float>(look.softness * look.softness_colour[static_cast<std::size_t>(c)]) * radius;
+    if (look.pores <= 0) return;
+    finish.grain = Grain::Peel;
+    finish.pore_size = static_cast<float>(look.pore_size) * radius;
+    finish.pore_depth = static_cast<float>(look.pores);
+    for (Eigen::Index row = 0; row < fine.rows(); ++row)
+        mesh.rest.emplace_back(fine.block<1, 3>(row, 3).transpose());
+}
+
 }  // namespace
 
-FruitSurface::FruitSurface(const take::TakeMesh& mesh, double radius, int picture_size)
+FruitSurface::FruitSurface(const take::TakeMesh& mesh, double radius, double picture_radius, int picture_size)
     : m_mesh(mesh),
       m_radius(radius),
-      m_refinement(mesh.rest.faces, mesh.rest.positions.size(), levels_for(mesh, radius, picture_size)) {}
+      m_levels(levels_for(mesh, picture_radius, picture_size)),
+      m_refinement(mesh.rest.faces, mesh.rest.positions.size(), m_levels) {}
 
 Channels FruitSurface::refined(const take::FrameMesh& moved, const Eigen::Matrix3f& pose,
                                const std::function<float(std::size_t)>& value) const {
@@ -78,12 +94,18 @@ SceneMesh FruitSurface::scene_mesh(const take::FrameMesh& moved, const Look& loo
                                                fine(row, 6) / radius};
     result.albedo = skin_colours(look, skin, dryness);
     roughen_normals(look, skin, dryness, result.normals);
-    Finish& finish = result.finishes[0];
-    finish.roughness = static_cast<float>(look.roughness);
-    finish.gloss = static_cast<float>(look.gloss);
-    for (int c = 0; c < 3; ++c)
-        finish.scatter[c] =
-            static_cast<float>(look.softness * look.softness_colour[static_cast<std::size_t>(c)]) * radius;
+    add_finish(result, look, radius, fine);
+    return result;
+}
+
+SceneMesh FruitSurface::textured_mesh(const take::FrameMesh& moved, const Look& look,
+                                      const Eigen::Matrix3f& pose,
+                                      std::shared_ptr<const SurfaceTexture> texture) const {
+    const Channels fine = refined(moved, pose, [](std::size_t) { return 0.0F; });
+    SceneMesh result = bare_mesh(fine, m_refinement);
+    result.texture = std::move(texture);
+    result.quad_uvs = refined_corners(m_mesh.rest.faces, m_mesh.rest.corner_uvs, m_levels);
+    add_finish(result, look, static_cast<float>(m_radius), fine);
     return result;
 }
 

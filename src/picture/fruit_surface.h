@@ -1,6 +1,7 @@
 #pragma once
 // The skin of a fruit as a surface of the scene.
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "picture/colouring.h"
@@ -14,9 +15,10 @@ namespace windfall::picture {
 /// One mesh of a take whose surface is smooth: refined once, coloured frame by frame.
 class FruitSurface {
   public:
-    /// `radius`: of the sphere about the fresh fruit, whose picture is `picture_size` pixels wide. Throws
-    /// InputError when a face names a vertex that is not there.
-    FruitSurface(const take::TakeMesh& mesh, double radius, int picture_size);
+    /// `radius`: of the sphere about the fresh fruit, in which the look counts lengths; `picture_radius`: of
+    /// the sphere whose picture is `picture_size` pixels wide. Throws InputError when a face names a vertex
+    /// that is not there.
+    FruitSurface(const take::TakeMesh& mesh, double radius, double picture_radius, int picture_size);
 
     const std::string& name() const { return m_mesh.name; }
 
@@ -24,6 +26,10 @@ class FruitSurface {
     /// are not those of the mesh, are no numbers, or have not what the colouring shows.
     SceneMesh scene_mesh(const take::FrameMesh& moved, const Look& look, const Eigen::Matrix3f& pose,
                          double dryness) const;
+    /// With the shading maps of a frame in place of the look's colours (decay); `texture` must have a
+    /// base_color, and the mesh texture coordinates.
+    SceneMesh textured_mesh(const take::FrameMesh& moved, const Look& look, const Eigen::Matrix3f& pose,
+                            std::shared_ptr<const SurfaceTexture> texture) const;
     SceneMesh diagram_mesh(const take::FrameMesh& moved, Colouring colouring, const ColourRange& range,
                            const Eigen::Matrix3f& pose) const;
 
@@ -34,6 +40,7 @@ class FruitSurface {
 
     take::TakeMesh m_mesh;
     double m_radius;
+    int m_levels;
     Refinement m_refinement;
 };
 

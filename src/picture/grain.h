@@ -12,7 +12,7 @@ struct GrainValue {
     Vec3f slope = Vec3f::Zero();  ///< gradient of the height in the rest shape
 };
 
-/// `rest` in units of the branch's radius, the branch along y.
+/// `rest` in units of the branch's radius, the branch along y; of the pores for peel.
 GrainValue grain_at(Grain grain, const Vec3f& rest);
 
 /// Tints and tilts a point of a surface as its finish says; nothing where that has no grain.

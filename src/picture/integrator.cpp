@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "picture/grain.h"
+#include "picture/texture_lookup.h"
 
 namespace windfall::picture {
 namespace {
@@ -113,7 +114,7 @@ Vec3f Integrator::diffuse(const SurfacePoint& point, int bounce, Sampler& sample
 /// Where light that comes out at `point` went in; `weight` is set per colour. One probe along the normal: the
 /// part of the surface that a fold hides counts as if it were `point` itself.
 SurfacePoint Integrator::scattered(const SurfacePoint& point, Vec3f& weight, Sampler& sampler) const {
-    const Vec3f& paths = point.finish->scatter;
+    const Vec3f& paths = point.scatter;
     weight = Vec3f::Ones();
     const auto u = sampler.next2();
     const auto v = sampler.next2();
@@ -134,7 +135,7 @@ SurfacePoint Integrator::scattered(const SurfacePoint& point, Vec3f& weight, Sam
 }
 
 Vec3f Integrator::coat(const SurfacePoint& point, const Vec3f& out, Sampler& sampler) const {
-    const Coat coat(point.finish->roughness);
+    const Coat coat(point.roughness);
     const Basis basis(point.normal);
     const Vec3f local_out = basis.to_local(out);
     Vec3f sum = Vec3f::Zero();
@@ -159,13 +160,12 @@ Vec3f Integrator::coat(const SurfacePoint& point, const Vec3f& out, Sampler& sam
 /// The first surface on a path: a clear coat over a soft body. Later ones are taken as diffuse, which no one
 /// can tell and which keeps rare bright paths away.
 Vec3f Integrator::skin(const SurfacePoint& point, const Vec3f& out, Sampler& sampler) const {
-    const float reflected = point.finish->gloss * fresnel(std::max(0.0F, out.dot(point.normal)));
+    const float reflected = point.gloss * fresnel(std::max(0.0F, out.dot(point.normal)));
     const float body = (1 - reflected) * luminance(point.albedo);
     const float coat_chance = reflected > 0 ? std::clamp(reflected / (reflected + body), 0.15F, 0.85F) : 0.0F;
-    if (sampler.next2()[0] < coat_chance)
-        return coat(point, out, sampler) * (point.finish->gloss / coat_chance);
+    if (sampler.next2()[0] < coat_chance) return coat(point, out, sampler) * (point.gloss / coat_chance);
     Vec3f weight = Vec3f::Constant((1 - reflected) / (1 - coat_chance));
-    if (point.finish->scatter.maxCoeff() <= 0) return weight.cwiseProduct(diffuse(point, 1, sampler));
+    if (point.scatter.maxCoeff() <= 0) return weight.cwiseProduct(diffuse(point, 1, sampler));
     Vec3f by_colour;
     SurfacePoint entry = scattered(point, by_colour, sampler);
     entry.albedo = point.albedo;
@@ -191,6 +191,7 @@ PathSample Integrator::trace(const Ray& camera_ray, float height_in_picture, Sam
     Ray ray = camera_ray;
     ray.to = to_floor;
     if (auto hit = m_surfaces.first_hit(ray)) {
+        apply_texture(*hit);
         apply_grain(*hit);
         result.albedo = hit->albedo;
         result.normal = hit->normal;

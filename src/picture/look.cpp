@@ -52,6 +52,10 @@ ParameterTable<Look> make_table() {
         "Fine unevenness of the skin, which breaks up its highlights; 0: polished", unit);
     table.add("look.grain_scale", [](auto& l) -> auto& { return l.grain_scale; },
               "Size of the fine unevenness, in radii of the fresh fruit", {.minimum = 0.01, .maximum = 1});
+    table.add("look.pores", [](auto& l) -> auto& { return l.pores; },
+              "Depth of the pores of a citrus fruit; 1: those of an orange", {.minimum = 0, .maximum = 4});
+    table.add("look.pore_size", [](auto& l) -> auto& { return l.pore_size; },
+              "Size of the pores, in radii of the fresh fruit", {.minimum = 0.003, .maximum = 1});
     table.add(
         "look.bloom", [](auto& l) -> auto& { return l.bloom; },
         "Strength of the waxy film on the ridges, as on plums and raisins", unit);

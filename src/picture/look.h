@@ -24,6 +24,8 @@ struct Look {
     double mottle_scale = 0.22;
     double grain = 0.25;
     double grain_scale = 0.05;
+    double pores = 0;
+    double pore_size = 0.03;
     double bloom = 0.06;
     std::vector<double> bloom_colour{0.80, 0.76, 0.78};
     double valley = 0.55;

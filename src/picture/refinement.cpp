@@ -213,6 +213,34 @@ Channels Refinement::apply(const Channels& coarse) const {
     return values;
 }
 
+std::vector<std::array<Eigen::Vector2f, 4>> refined_corners(
+    const std::vector<geometry::Face>& faces, const std::vector<std::array<geometry::Vec2, 4>>& corner_uvs,
+    int levels) {
+    using Corners = std::array<Eigen::Vector2f, 4>;
+    // in the order of `split`: for each corner it, the middle of the edge behind it, the middle of the face,
+    // the middle of the edge before it
+    const auto append_parts = [](const Corners& corners, std::size_t n, std::vector<Corners>& parts) {
+        Eigen::Vector2f middle = Eigen::Vector2f::Zero();
+        for (std::size_t k = 0; k < n; ++k) middle += corners[k] / static_cast<float>(n);
+        for (std::size_t k = 0; k < n; ++k)
+            parts.push_back({corners[k], (corners[k] + corners[(k + 1) % n]) / 2, middle,
+                             (corners[k] + corners[(k + n - 1) % n]) / 2});
+    };
+    std::vector<Corners> quads;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = corner_uvs[f][k].cast<float>();
+        append_parts(corners, static_cast<std::size_t>(geometry::corner_count(faces[f])), quads);
+    }
+    for (int level = 1; level < levels; ++level) {
+        std::vector<Corners> parts;
+        parts.reserve(4 * quads.size());
+        for (const Corners& corners : quads) append_parts(corners, 4, parts);
+        quads = std::move(parts);
+    }
+    return quads;
+}
+
 std::vector<Vec3f> smooth_normals(const std::vector<Vec3f>& positions,
                                   const std::vector<std::array<std::uint32_t, 4>>& quads) {
     std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());

@@ -33,6 +33,12 @@ class Refinement {
     std::vector<std::array<std::uint32_t, 4>> m_quads;
 };
 
+/// Texture coordinates at the corners of the quadrilaterals that `levels` of refinement make of faces, in
+/// their order; straight within each face, so that seams stay where they are.
+std::vector<std::array<Eigen::Vector2f, 4>> refined_corners(
+    const std::vector<geometry::Face>& faces, const std::vector<std::array<geometry::Vec2, 4>>& corner_uvs,
+    int levels);
+
 /// Area-weighted unit normals at the vertices.
 std::vector<Vec3f> smooth_normals(const std::vector<Vec3f>& positions,
                                   const std::vector<std::array<std::uint32_t, 4>>& quads);

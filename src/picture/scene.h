@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace windfall::picture {
@@ -14,7 +15,7 @@ using Vec3f = Eigen::Vector3f;
 inline float luminance(const Vec3f& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
 
 /// Fine structure that the light sees and the mesh does not have (grain.h).
-enum class Grain { None, Bark, Fibres, EndGrain };
+enum class Grain { None, Bark, Fibres, EndGrain, Peel };
 
 /// How a part of a surface reflects light.
 struct Finish {
@@ -23,8 +24,12 @@ struct Finish {
     Vec3f scatter =
         Vec3f::Zero();  ///< mean path of light under the surface, per colour, in units of the scene; 0: none
     Grain grain = Grain::None;
-    bool hard = false;  ///< shaded with the normals of the facets, so that its edges are crisp
+    float pore_size = 1;   ///< of Grain::Peel, in units of the rest shape
+    float pore_depth = 1;  ///< of Grain::Peel, relative to an orange's
+    bool hard = false;     ///< shaded with the normals of the facets, so that its edges are crisp
 };
+
+struct SurfaceTexture;  // texture_lookup.h
 
 /// A surface fine enough to be drawn with its facets: quadrilaterals with normals and colours at the
 /// vertices.
@@ -36,6 +41,17 @@ struct SceneMesh {
     std::vector<std::array<std::uint32_t, 4>> quads;  ///< a triangle repeats its last corner
     std::vector<Finish> finishes{Finish{}};           ///< at least one
     std::vector<std::uint8_t> quad_finishes;          ///< of each quad; empty: all have the first
+    std::shared_ptr<const SurfaceTexture>
+        texture;  ///< in place of `albedo` and of parts of the finish; or null
+    std::vector<std::array<Eigen::Vector2f, 4>> quad_uvs;  ///< of each quad where there is a texture
+};
+
+/// Strands so thin that they are drawn as lines with a thickness: mold.
+struct SceneHair {
+    int points_per_strand = 2;
+    std::vector<Vec3f> points;   ///< points_per_strand of each strand, from the root on
+    std::vector<float> radii;    ///< of each strand
+    std::vector<Vec3f> colours;  ///< of each strand, linear
 };
 
 /// Twice the area of a facet, along its normal.
@@ -98,6 +114,7 @@ Camera frame_region(const Region& region, double azimuth_deg, double elevation_d
 
 struct Scene {
     std::vector<SceneMesh> meshes;
+    std::vector<SceneHair> hair;
     std::vector<DistantLight> lights;
     Sky sky;
     bool has_floor = true;

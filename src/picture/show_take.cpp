@@ -52,7 +52,7 @@ StageSettings stage_settings(const take::TakeReader& take, const ShowOptions& op
 std::vector<take::Frame> sampled_frames(const take::TakeReader& take) {
     std::vector<take::Frame> frames;
     for (const int index : evenly_chosen(take.frame_count(), kSampledFrames))
-        frames.push_back(take.frame(index));
+        frames.push_back(take.frame_without_map_values(index));
     return frames;
 }
 
@@ -80,6 +80,8 @@ std::string title_of(const take::TakeInfo& info, Colouring colouring) {
 
 std::string caption_of(const take::Frame& frame, bool wood) {
     if (wood) return fmt::format("{:.2f} s", frame.time);
+    if (const auto hours = frame.scalars.find("hours"); hours != frame.scalars.end())
+        return fmt::format("day {:.1f}", hours->second / 24);
     const auto found = frame.scalars.find("shrinkage");
     return found == frame.scalars.end() ? fmt::format("time {:.2f}", frame.time)
                                         : fmt::format("shrinkage {:.2f}", found->second);
@@ -109,6 +111,7 @@ class Photographer {
         if (shot.frame != m_frame.index || m_scene.meshes.empty()) {
             m_frame = m_take.frame(shot.frame);
             m_frame.index = shot.frame;
+            if (m_options.dress && m_options.colouring == Colouring::Material) m_options.dress(m_frame);
             m_scene = m_stage.scene_of(m_frame);
         }
         if (shot.caption.empty()) shot.caption = caption_of(m_frame, is_wood(m_take.meshes()));

@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of a take: contact sheet, single frames, turntable and time lapse.
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,8 +44,11 @@ struct ShowOptions {
     double frames_per_second = 24;
     bool denoise = true;
     std::vector<std::pair<std::string, ParameterValue>> look;  ///< fruit: "look.*" in place of the take's own
-    bool overwrite = false;                                    ///< pictures that exist may be replaced
-    std::string ffmpeg = "ffmpeg";                             ///< program that makes the movies
+    /// Adds to a frame what its take does not keep and a picture needs (decay: shading maps, mold); may be
+    /// empty.
+    std::function<void(take::Frame&)> dress = {};
+    bool overwrite = false;         ///< pictures that exist may be replaced
+    std::string ffmpeg = "ffmpeg";  ///< program that makes the movies
 };
 
 struct ShowOutput {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "picture/rotten_surface.h"
 #include "picture/studio.h"
 
 namespace windfall::picture {
@@ -37,6 +38,27 @@ const take::FrameMesh& moved_mesh(const take::Frame& frame, const std::string& n
     throw InputError(fmt::format("frame {} has no mesh \"{}\"", frame.index, name));
 }
 
+/// The sphere about points, from the middle of the box about them.
+struct Ball {
+    Vec3f centre;
+    float lowest = 0;
+    double radius = 0;
+};
+
+Ball ball_about(const std::vector<Vec3f>& points) {
+    Vec3f low = Vec3f::Constant(1e30F), high = -low;
+    for (const Vec3f& p : points) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    if (low.x() > high.x()) throw InputError("the take has no surface to show");
+    const Vec3f centre = (low + high) / 2;
+    float radius = 0;
+    for (const Vec3f& p : points) radius = std::max(radius, (p - centre).norm());
+    if (!(radius > 0) || !std::isfinite(radius)) throw InputError("the surface of the take has no size");
+    return {centre, low.y(), static_cast<double>(radius)};
+}
+
 }  // namespace
 
 bool is_wood(const std::vector<take::TakeMesh>& meshes) {
@@ -51,30 +73,43 @@ Stage::Stage(const std::vector<take::TakeMesh>& meshes, const StageSettings& set
     if (is_wood(meshes))
         frame_wood(meshes, framed_by);
     else
-        frame_fruit(meshes);
+        frame_fruit(meshes, framed_by);
     if (m_wood.empty() && m_fruit.empty()) throw InputError("the take has no surface to show");
 }
 
-void Stage::frame_fruit(const std::vector<take::TakeMesh>& meshes) {
+void Stage::frame_fruit(const std::vector<take::TakeMesh>& meshes, std::span<const take::Frame> framed_by) {
     m_pose = pose_matrix(m_settings.look.pose);
-    Vec3f low = Vec3f::Constant(1e30F), high = -low;
-    for (const auto& mesh : meshes)
-        for (const auto& p : mesh.rest.positions) {
-            const Vec3f posed = m_pose * p.cast<float>();
-            low = low.cwiseMin(posed);
-            high = high.cwiseMax(posed);
-        }
-    if (low.x() > high.x()) throw InputError("the take has no surface to show");
-    m_centre = (low + high) / 2;
-    float radius = 0;
-    for (const auto& mesh : meshes)
-        for (const auto& p : mesh.rest.positions)
-            radius = std::max(radius, (m_pose * p.cast<float>() - m_centre).norm());
-    if (!(radius > 0) || !std::isfinite(radius)) throw InputError("the surface of the take has no size");
-    m_radius = static_cast<double>(radius);
-    m_centre = Vec3f(m_centre.x(), m_centre.y() - low.y(), m_centre.z());
-    for (const auto& mesh : meshes)
-        if (!mesh.rest.faces.empty()) m_fruit.emplace_back(mesh, m_radius, m_settings.picture_size);
+    std::vector<const take::TakeMesh*> fruit;
+    for (const auto& mesh : meshes) {
+        if (mesh.rest.faces.empty() || is_hidden(mesh)) continue;
+        if (is_furniture(mesh))
+            m_furniture.push_back(mesh);
+        else
+            fruit.push_back(&mesh);
+    }
+    const bool alone = fruit.size() == 1 && m_furniture.empty();
+    std::vector<Vec3f> points;
+    if (alone || framed_by.empty()) {
+        for (const auto& mesh : meshes)
+            for (const auto& p : mesh.rest.positions) points.emplace_back(m_pose * p.cast<float>());
+    } else {
+        for (const auto& mesh : framed_by.front().meshes)
+            for (const auto& p : mesh.positions) points.emplace_back(m_pose * p);
+    }
+    const Ball whole = ball_about(points);
+    m_radius = whole.radius;
+    m_centre = Vec3f(whole.centre.x(), whole.centre.y() - whole.lowest, whole.centre.z());
+    for (const take::TakeMesh* mesh : fruit) {
+        points.clear();
+        for (const auto& p : mesh->rest.positions) points.emplace_back(m_pose * p.cast<float>());
+        m_fruit.emplace_back(*mesh, alone ? m_radius : ball_about(points).radius, m_radius,
+                             m_settings.picture_size);
+    }
+    // A fruit that rots collapses and spreads in front of where the fresh one stood.
+    if (alone && !framed_by.empty() && !framed_by.front().maps.empty()) {
+        m_centre.y() -= 0.1F * m_radius;
+        m_radius *= 1.12F;
+    }
 }
 
 void Stage::frame_wood(const std::vector<take::TakeMesh>& meshes, std::span<const take::Frame> framed_by) {
@@ -104,14 +139,23 @@ Scene Stage::fruit_scene(const take::Frame& frame) const {
     float lowest = 1e30F;
     for (const FruitSurface& surface : m_fruit) {
         const auto& moved = moved_mesh(frame, surface.name());
-        scene.meshes.push_back(
-            m_settings.colouring == Colouring::Material
-                ? surface.scene_mesh(moved, m_settings.look, m_pose, dryness)
-                : surface.diagram_mesh(moved, m_settings.colouring, m_settings.colour_range, m_pose));
-        for (const Vec3f& p : scene.meshes.back().positions) lowest = std::min(lowest, p.y());
+        if (m_settings.colouring != Colouring::Material)
+            scene.meshes.push_back(
+                surface.diagram_mesh(moved, m_settings.colouring, m_settings.colour_range, m_pose));
+        else if (auto texture = texture_of(frame, surface.name()))
+            scene.meshes.push_back(surface.textured_mesh(moved, m_settings.look, m_pose, std::move(texture)));
+        else
+            scene.meshes.push_back(surface.scene_mesh(moved, m_settings.look, m_pose, dryness));
     }
+    for (const auto& mesh : m_furniture)
+        scene.meshes.push_back(furniture_mesh(mesh, moved_mesh(frame, mesh.name), m_pose));
+    if (m_settings.colouring == Colouring::Material) scene.hair = hair_of(frame, m_pose);
+    for (const SceneMesh& mesh : scene.meshes)
+        for (const Vec3f& p : mesh.positions) lowest = std::min(lowest, p.y());
     for (SceneMesh& mesh : scene.meshes)
         for (Vec3f& p : mesh.positions) p.y() -= lowest;
+    for (SceneHair& hair : scene.hair)
+        for (Vec3f& p : hair.points) p.y() -= lowest;
     return scene;
 }
 

@@ -27,13 +27,14 @@ struct StageSettings {
 /// Whether these meshes are of wood: they have materials.
 bool is_wood(const std::vector<take::TakeMesh>& meshes);
 
-/// Makes scenes of the frames of one take. Fruit: all with the same camera, the fresh fruit fills the
-/// picture, so that later frames show how it shrank, and each frame rests with its lowest point on the floor.
-/// Wood: the camera sees a region that holds the `framed_by` frames, and the floor is at their lowest point.
+/// Makes scenes of the frames of one take. Fruit: all with the same camera, the fresh fruit (several: the
+/// first of the `framed_by` frames, since they lie there as they settled) fills the picture, so that later
+/// frames show how it shrank, and each frame rests with its lowest point on the floor. Wood: the camera sees
+/// a region that holds the `framed_by` frames, and the floor is at their lowest point.
 class Stage {
   public:
-    /// Throws InputError when there is no mesh with vertices. `framed_by` is for wood; empty: the rest
-    /// shapes.
+    /// Throws InputError when there is no mesh with vertices. `framed_by` is for wood and for several fruit;
+    /// empty: the rest shapes.
     Stage(const std::vector<take::TakeMesh>& meshes, const StageSettings& settings,
           std::span<const take::Frame> framed_by = {});
 
@@ -45,14 +46,15 @@ class Stage {
     void aim(Scene& scene, double azimuth_deg, double elevation_deg, View view, Framing framing) const;
 
   private:
-    void frame_fruit(const std::vector<take::TakeMesh>& meshes);
+    void frame_fruit(const std::vector<take::TakeMesh>& meshes, std::span<const take::Frame> framed_by);
     void frame_wood(const std::vector<take::TakeMesh>& meshes, std::span<const take::Frame> framed_by);
     Scene fruit_scene(const take::Frame& frame) const;
     Scene wood_scene(const take::Frame& frame) const;
 
     StageSettings m_settings;
-    std::vector<FruitSurface> m_fruit;   // of a take of fruit
-    std::vector<take::TakeMesh> m_wood;  // of a take of wood
+    std::vector<FruitSurface> m_fruit;        // of a take of fruit
+    std::vector<take::TakeMesh> m_furniture;  // what the fruit lies in or on
+    std::vector<take::TakeMesh> m_wood;       // of a take of wood
     Eigen::Matrix3f m_pose = Eigen::Matrix3f::Identity();
     Vec3f m_centre = Vec3f::Zero();  // of the sphere about the posed fresh fruit, which rests on the floor
     double m_radius = 1;             // of that sphere

@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "picture/hair_curves.h"
+#include "picture/texture_lookup.h"
 
 namespace windfall::picture {
 
@@ -31,7 +33,8 @@ struct Surfaces::Handles {
 
 namespace {
 
-/// Cosine between the normals of a facet and of its corner from which on the two belong to one smooth surface.
+/// Cosine between the normals of a facet and of its corner from which on the two belong to one smooth
+/// surface.
 constexpr float kSmooth = 0.7F;
 /// Cosine between the normals of a quadrilateral and its triangles above which it counts as flat.
 constexpr float kFlat = 0.9F;
@@ -46,6 +49,7 @@ void attach(RTCDevice device, RTCScene scene, const SceneMesh& mesh, unsigned id
         for (std::size_t v = 0; v < mesh.positions.size(); ++v)
             std::memcpy(vertices + 3 * v, mesh.positions[v].data(), 3 * sizeof(float));
         std::memcpy(quads, mesh.quads.data(), mesh.quads.size() * sizeof(mesh.quads[0]));
+        rtcSetGeometryMask(geometry, kMeshMask);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
     }
@@ -62,7 +66,7 @@ RTCRay to_embree(const Ray& ray) {
     r.dir_z = ray.direction.z();
     r.tnear = ray.from;
     r.tfar = ray.to;
-    r.mask = ~0U;
+    r.mask = kMeshMask | kHairMask;
     return r;
 }
 
@@ -100,6 +104,18 @@ Surfaces::Surfaces(const Scene& scene) : m_scene(scene), m_handles(std::make_uni
             m_high = m_high.cwiseMax(p);
         }
     }
+    for (std::size_t i = 0; i < scene.hair.size(); ++i) {
+        attach_hair(m_handles->device, m_handles->scene, scene.hair[i],
+                    static_cast<unsigned>(scene.meshes.size() + i));
+        m_handles->check();
+        for (std::size_t k = 0; k < scene.hair[i].points.size(); ++k) {
+            const Vec3f& p = scene.hair[i].points[k];
+            const Vec3f thick = Vec3f::Constant(
+                scene.hair[i].radii[k / static_cast<std::size_t>(scene.hair[i].points_per_strand)]);
+            m_low = m_low.cwiseMin(p - thick);
+            m_high = m_high.cwiseMax(p + thick);
+        }
+    }
     m_lift = 2e-5F * std::max(m_low.cwiseAbs().maxCoeff(), m_high.cwiseAbs().maxCoeff());
     one_thread.execute([&] { rtcCommitScene(m_handles->scene); });
     m_handles->check();
@@ -132,6 +148,10 @@ std::optional<SurfacePoint> Surfaces::first_hit(const Ray& ray) const {
     rtcIntersect1(m_handles->scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
+    if (hit.hit.geomID >= m_scene.meshes.size())
+        return hair_point(m_scene.hair[hit.hit.geomID - m_scene.meshes.size()], hit.hit.primID,
+                          ray.origin + hit.ray.tfar * ray.direction, hit.ray.tfar,
+                          Vec3f(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z), ray.direction);
     const SceneMesh& mesh = m_scene.meshes[hit.hit.geomID];
     const auto& quad = mesh.quads[hit.hit.primID];
     // Embree cuts a quadrilateral into the triangles 0 1 3 and 2 3 1
@@ -147,11 +167,20 @@ std::optional<SurfacePoint> Surfaces::first_hit(const Ray& ray) const {
     point.corners = corners;
     point.weights = weights;
     point.finish = &mesh.finishes[mesh.quad_finishes.empty() ? 0 : mesh.quad_finishes[hit.hit.primID]];
+    point.roughness = point.finish->roughness;
+    point.gloss = point.finish->gloss;
+    point.scatter = point.finish->scatter;
     point.place = point.normal = point.albedo = Vec3f::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
         point.place += weights[k] * mesh.positions[corners[k]];
         point.normal += weights[k] * mesh.normals[corners[k]];
-        point.albedo += weights[k] * mesh.albedo[corners[k]];
+        if (!mesh.texture) point.albedo += weights[k] * mesh.albedo[corners[k]];
+    }
+    if (mesh.texture) {
+        const auto& uvs = mesh.quad_uvs[hit.hit.primID];
+        point.corner_uvs = first ? std::array{uvs[0], uvs[1], uvs[3]} : std::array{uvs[2], uvs[3], uvs[1]};
+        for (std::size_t k = 0; k < 3; ++k) point.uv += weights[k] * point.corner_uvs[k];
+        point.albedo = texture_colour(mesh.texture->base_color, point.uv);
     }
     const Vec3f& origin = mesh.positions[corners[0]];
     point.face_normal =
@@ -181,6 +210,7 @@ bool Surfaces::blocked(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay r = to_embree(ray);
+    r.mask = kMeshMask;
     rtcOccluded1(m_handles->scene, &context, &r);
     return r.tfar < 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of a scene, ready for rays (Embree).
+// The meshes and the hair of a scene, ready for rays (Embree).
 #include <memory>
 #include <optional>
 
@@ -20,9 +20,14 @@ struct SurfacePoint {
     Vec3f normal;       ///< interpolated
     Vec3f albedo;
     const Finish* finish = nullptr;
-    const SceneMesh* mesh = nullptr;
+    float roughness = 0.4F, gloss = 1;       ///< of the finish, or of the texture
+    Vec3f scatter = Vec3f::Zero();           ///< likewise
+    float pores = 1;                         ///< share of the finish's pores that is not covered
+    const SceneMesh* mesh = nullptr;         ///< null on hair
     std::array<std::uint32_t, 3> corners{};  ///< of the triangle that was hit
     std::array<float, 3> weights{};
+    std::array<Eigen::Vector2f, 3> corner_uvs{};   ///< where the mesh has a texture
+    Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< likewise
     Vec3f start;  ///< where rays leave from: lifted off the facet towards the smooth surface
 };
 
@@ -36,6 +41,7 @@ class Surfaces {
     Surfaces& operator=(const Surfaces&) = delete;
 
     std::optional<SurfacePoint> first_hit(const Ray& ray) const;
+    /// By a mesh; hair lets light through.
     bool blocked(const Ray& ray) const;
 
   private:

@@ -42,7 +42,10 @@ fs::path preset_file(const std::string& name) {
     if (std::find(names.begin(), names.end(), name) != names.end()) return preset_folder() / (name + ".toml");
     std::error_code ignored;
     std::string remedy;
-    if (const auto nearest = nearest_names(name, names, 3); !nearest.empty())
+    std::vector<std::string> nearest = nearest_names(name, names, 3);
+    for (const std::string& preset : names)  // a name that was not typed to its end
+        if (nearest.empty() && name.size() > 1 && preset.starts_with(name)) nearest.push_back(preset);
+    if (!nearest.empty())
         remedy = fmt::format("did you mean {}?", fmt::join(nearest, ", "));
     else
         remedy = fmt::format("there are {}", fmt::join(names, ", "));

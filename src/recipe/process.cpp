@@ -16,7 +16,7 @@ const Parameter<Recipe>* Process::find(const std::string& key) const {
 }
 
 const std::vector<Process>& processes() {
-    static const std::vector<Process> kProcesses = {drying_process(), fracture_process()};
+    static const std::vector<Process> kProcesses = {drying_process(), fracture_process(), decay_process()};
     return kProcesses;
 }
 

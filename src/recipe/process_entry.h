@@ -9,6 +9,7 @@ namespace windfall::recipe {
 
 Process drying_process();
 Process fracture_process();
+Process decay_process();
 
 /// The entries of a process's own table as entries of the recipe that holds its parameters in `member`.
 template <class Parameters>
@@ -23,5 +24,7 @@ std::vector<Parameter<Recipe>> of_recipe(const ParameterTable<Parameters>& table
 
 /// The look of fruit, with the checks that one entry alone cannot make.
 std::vector<Parameter<Recipe>> look_of_recipe();
+/// The look of rot and mold.
+std::vector<Parameter<Recipe>> rot_look_of_recipe();
 
 }  // namespace windfall::recipe

@@ -72,8 +72,21 @@ class Loader {
         recipe.title.clear();
         recipe.description.clear();
         for (const Assignment& assignment : assignments)
-            if (assignment.key != "preset" && assignment.key != "process") apply(assignment, recipe);
+            if (assignment.key != "preset" && assignment.key != "process") {
+                apply(assignment, recipe);
+                look_beside(file, assignment.key, recipe);
+            }
         return recipe;
+    }
+
+    /// Files that a recipe names are relative to its own folder.
+    static void look_beside(const std::filesystem::path& file, const std::string& key, Recipe& recipe) {
+        const auto* parameter = process_named(recipe.process).find(key);
+        if (parameter == nullptr || parameter->info.unit != "file") return;
+        const std::filesystem::path named = std::get<std::string>(parameter->get(recipe));
+        if (!named.empty() && named.is_relative())
+            parameter->set(
+                recipe, (std::filesystem::absolute(file).parent_path() / named).lexically_normal().string());
     }
 
     /// Whether `recipe` is now the preset's.

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "decay/parameters.h"
+#include "decay/rot_colours.h"
 #include "drying/parameters.h"
 #include "fracture/parameters.h"
 #include "picture/look.h"
@@ -20,7 +22,13 @@ struct Recipe {
     std::vector<std::string> sources;  ///< where the numbers come from
     drying::DryingParameters drying;
     fracture::FractureParameters fracture;
+    decay::DecayParameters decay;
     picture::Look look;  ///< of fruit; wood has its colours among its parameters
+    decay::RotLook rot_look = [] {
+        decay::RotLook rotten;
+        rotten.species.clear();  // that of the mold that grows
+        return rotten;
+    }();
 };
 
 /// Reads a shipped preset by its name or a recipe by the path of its file, then applies `settings`, each

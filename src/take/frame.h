@@ -1,6 +1,8 @@
 #pragma once
 // One moment of a specimen, as every process emits it and every reader gets it.
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -30,12 +32,55 @@ struct FrameMesh {
     }
 };
 
+/// A picture on the skin, found by a mesh's texture coordinates (u to the right, v up, so v = 1 is the top
+/// row). `values[components * (width * row + column) + component]`, the top row first; 0 stands for
+/// `minimum`, 65535 for `maximum`. Every map of a frame has another (mesh, name).
+struct FrameMap {
+    std::string name;  ///< decay: "nutrient", "fungus", "fungus_active", "soft_rot", "base_color", ...
+    std::string mesh;  ///< whose texture coordinates; empty: those of the take's only mesh
+    int width = 0, height = 0;
+    int components = 1;                 ///< 1, 3 (red, green, blue) or 4 (and alpha)
+    double minimum = 0, maximum = 1;    ///< in the map's own unit
+    bool srgb = false;                  ///< colours on the sRGB curve; else values are linear
+    std::vector<std::uint16_t> values;  ///< width * height * components
+};
+
+/// Hair on the skin: strands of equally many points, from the root to the tip. Lengths in the take's unit.
+struct FrameCurves {
+    std::string name;                      ///< decay: "mold", "sporangia"
+    std::string mesh;                      ///< which mesh the roots are on
+    int points_per_strand = 2;             ///< 2 .. 64
+    std::vector<Eigen::Vector3f> points;   ///< points_per_strand of each strand, one strand after the other
+    std::vector<float> radii;              ///< one a strand
+    std::vector<Eigen::Vector3f> colours;  ///< one a strand: linear red, green, blue
+    std::vector<std::int32_t> numbers;     ///< one a strand, ascending: the same strand in all frames
+    std::vector<std::int32_t> faces;       ///< of the mesh, where the root is
+    std::vector<Eigen::Vector2f> face_places;  ///< (s, t) in that face; see face_weights()
+
+    std::size_t strand_count() const { return radii.size(); }
+};
+
+/// Weights of a face's corners at (s, t): bilinear in a quadrilateral, where corners 0, 1, 2, 3 are (0, 0),
+/// (1, 0), (1, 1), (0, 1); in a triangle corners 0, 1, 2 are (0, 0), (1, 0), (0, 1) and the last weight is 0.
+inline std::array<float, 4> face_weights(const geometry::Face& face, float s, float t) {
+    if (geometry::corner_count(face) == 3) return {1 - s - t, s, t, 0};
+    return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+}
+
 /// One moment. Lengths are in the take's unit (TakeInfo::unit_length_m gives its metres).
 struct Frame {
     int index = 0;
     double time = 0;                        ///< process time; drying: the whole drying takes one unit
     std::map<std::string, double> scalars;  ///< "shrinkage", "flesh_volume_ratio", ...
     std::vector<FrameMesh> meshes;
+    std::vector<FrameMap> maps = {};
+    std::vector<FrameCurves> curves = {};
+
+    const FrameMap* find_map(const std::string& mesh, const std::string& name) const {
+        for (const auto& map : maps)
+            if (map.mesh == mesh && map.name == name) return &map;
+        return nullptr;
+    }
 };
 
 /// What some of the faces of a mesh are made of (fracture: "bark", "end_grain", "fibres" ...).

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "take/frame_file_parts.h"
 
 namespace windfall::take {
 namespace {
@@ -16,27 +17,6 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 constexpr std::size_t kMostMaterials = 256;  // what a byte a face can tell apart
-
-[[noreturn]] void damaged_frame(const std::string& file_name, const std::string& what) {
-    throw InputError(fmt::format("{}: {}; make the take again", file_name, what));
-}
-
-// The numbers of vectors one after the other.
-template <class Scalar, class Vectors>
-std::vector<Scalar> flat(const Vectors& vectors) {
-    std::vector<Scalar> numbers;
-    numbers.reserve(vectors.size() * 3);
-    for (const auto& v : vectors) numbers.insert(numbers.end(), v.begin(), v.end());
-    return numbers;
-}
-
-template <class Vector, class Scalar>
-std::vector<Vector> vectors3(const std::vector<Scalar>& numbers) {
-    std::vector<Vector> vectors(numbers.size() / 3);
-    for (std::size_t i = 0; i < vectors.size(); ++i)
-        vectors[i] = Vector(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-    return vectors;
-}
 
 // Adds the attributes as arrays `prefix`NAME and returns their names.
 nlohmann::json add_attributes(ArrayFile& file, const std::string& prefix,
@@ -72,11 +52,6 @@ std::vector<Attribute> attributes_from(const ArrayFile& file, const nlohmann::js
     return attributes;
 }
 
-// JSON has no NaN; it is written as null.
-double number_or_nan(const nlohmann::json& json) {
-    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
 void check_kind(const ArrayFile& file, const char* kind, const std::string& file_name) {
     if (file.meta.value("kind", std::string()) != kind)
         damaged_frame(file_name, fmt::format("this is not a {}", kind));
@@ -98,6 +73,8 @@ Frame frame_from_checked_json(const ArrayFile& file, const std::string& file_nam
                                           mesh.positions.size(), file_name);
         frame.meshes.push_back(std::move(mesh));
     }
+    read_map_descriptions(file, frame, file_name);
+    read_curves(file, frame, file_name);
     return frame;
 }
 
@@ -178,6 +155,8 @@ ArrayFile to_array_file(const Frame& frame) {
             add_attributes(file, mesh.name + "/attributes/", mesh.attributes, mesh.positions.size());
         file.meta["meshes"].push_back({{"name", mesh.name}, {"attributes", std::move(attributes)}});
     }
+    add_maps(file, frame);
+    add_curves(file, frame);
     return file;
 }
 

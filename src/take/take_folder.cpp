@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "take/map_file.h"
 #include "take/whole_file.h"
 
 namespace windfall::take {
@@ -171,6 +172,7 @@ void remove_run(const fs::path& folder) {
     remove_file(summary_path(folder));
     remove_file(folder / "log.txt");
     for (const int index : frame_indices(folder)) remove_file(frame_path(folder, index));
+    remove_maps(folder);
     for (const auto& path : folder_entries(folder / "meshes"))
         if (path.extension() == ".wfa" && is_mesh_name(path.stem().string())) remove_file(path);
 }
@@ -179,6 +181,7 @@ void remove_temporaries(const fs::path& folder) {
     for (const auto& place : {folder, folder / "frames", folder / "meshes"})
         for (const auto& path : folder_entries(place))
             if (is_temporary_name(path.filename().string())) remove_file(path);
+    remove_map_temporaries(folder);
 }
 
 }  // namespace windfall::take

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "take/frame_file.h"
+#include "take/map_file.h"
 #include "take/take_folder.h"
 #include "take/whole_file.h"
 
@@ -50,6 +53,12 @@ TakeReader::TakeReader(const fs::path& folder) : m_folder(folder) {
 }
 
 Frame TakeReader::frame(int index) const {
+    Frame frame = frame_without_map_values(index);
+    read_maps(m_folder, frame);
+    return frame;
+}
+
+Frame TakeReader::frame_without_map_values(int index) const {
     if (index < 0 || index >= m_frame_count)
         throw InputError(m_frame_count == 0
                              ? fmt::format("{} has no frames yet", m_folder.string())
@@ -67,6 +76,16 @@ Frame TakeReader::frame(int index) const {
                 fmt::format("{}: mesh '{}' does not have the vertices of the take's mesh; make the take "
                             "again",
                             path, mesh.name));
+    }
+    for (const auto& curves : frame.curves) {
+        const TakeMesh* fresh = find_mesh(m_meshes, curves.mesh);
+        const auto faces = static_cast<std::int64_t>(fresh == nullptr ? 0 : fresh->rest.faces.size());
+        if (std::any_of(curves.faces.begin(), curves.faces.end(),
+                        [&](std::int32_t face) { return face < 0 || face >= faces; }))
+            throw InputError(
+                fmt::format("{}: the roots of curves '{}' are not on the take's mesh '{}'; make the take "
+                            "again",
+                            path, curves.name, curves.mesh));
     }
     return frame;
 }

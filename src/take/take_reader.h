@@ -28,6 +28,9 @@ class TakeReader {
     int frame_count() const { return m_frame_count; }
     /// InputError when there is no such frame.
     Frame frame(int index) const;
+    /// The same, but the values of its maps are not read, which takes most of the time; their descriptions
+    /// are there.
+    Frame frame_without_map_values(int index) const;
 
     /// An empty object before the run has written one.
     nlohmann::json summary() const;

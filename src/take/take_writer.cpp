@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "take/array_file.h"
 #include "take/frame_file.h"
+#include "take/map_file.h"
 #include "take/whole_file.h"
 
 namespace windfall::take {
@@ -138,7 +139,10 @@ void TakeWriter::add_frame(const Frame& frame) {
         if (found == m_vertex_counts.end() || found->second != mesh.positions.size())
             throw std::logic_error("mesh '" + mesh.name + "' of a frame does not fit the take's mesh");
     }
-    write_whole_file(frame_path(m_folder, frame.index), encode_array_file(to_array_file(frame)), kResume);
+    std::vector<WholeFile> files = map_files(m_folder, frame);
+    // The frame comes last, for what it names must be there: a frame without its maps does not count.
+    files.push_back({frame_path(m_folder, frame.index), encode_array_file(to_array_file(frame))});
+    write_whole_files(files, kResume);
 }
 
 void TakeWriter::save_checkpoint(std::span<const std::byte> bytes) {

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <future>
+#include <memory>
 #include <system_error>
 
 #include "core/error.h"
@@ -48,7 +50,9 @@ std::string remedy(int error) {
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::filesystem::path& path)
-        : m_path(path), m_descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {}
+        : m_path(path),
+          m_descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)),
+          m_open_error(m_descriptor < 0 ? errno : 0) {}
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() {
@@ -58,9 +62,13 @@ class TemporaryFile {
     }
 
     bool is_open() const { return m_descriptor >= 0; }
-    int descriptor() const { return m_descriptor; }
 
-    // Both return 0 or the errno.
+    // All return 0 or the errno.
+    int write(std::span<const std::byte> bytes) {
+        if (m_open_error != 0) return m_open_error;
+        const int error = write_all(m_descriptor, bytes);
+        return error != 0 ? error : sync_and_close();
+    }
     int sync_and_close() {
         // EINVAL: a file system without fsync, where there is nothing to wait for.
         const int error = ::fsync(m_descriptor) != 0 && errno != EINVAL ? errno : 0;
@@ -79,8 +87,14 @@ class TemporaryFile {
   private:
     std::filesystem::path m_path;
     int m_descriptor;
+    int m_open_error;
     bool m_closed = false, m_renamed = false;
 };
+
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int error, std::string_view how_to_go_on) {
+    throw RunError(fmt::format("cannot write {}: {}; {} and {}", path.string(), std::strerror(error),
+                               remedy(error), how_to_go_on));
+}
 
 [[noreturn]] void cannot_read(const std::filesystem::path& path, int error) {
     throw InputError(fmt::format("cannot read {}: {}", path.string(), std::strerror(error)));
@@ -103,13 +117,26 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
                       std::string_view how_to_go_on) {
     TemporaryFile file(temporary_beside(path));
-    int error = file.is_open() ? 0 : errno;
-    if (error == 0) error = write_all(file.descriptor(), bytes);
-    if (error == 0) error = file.sync_and_close();
+    int error = file.write(bytes);
     if (error == 0) error = file.rename_to(path);
-    if (error != 0)
-        throw RunError(fmt::format("cannot write {}: {}; {} and {}", path.string(), std::strerror(error),
-                                   remedy(error), how_to_go_on));
+    if (error != 0) cannot_write(path, error, how_to_go_on);
+}
+
+void write_whole_files(const std::vector<WholeFile>& files, std::string_view how_to_go_on) {
+    std::vector<std::unique_ptr<TemporaryFile>> temporaries(files.size());
+    std::vector<std::future<int>> errors;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        // A thread for each, since all they do is wait for the disk.
+        errors.push_back(std::async(std::launch::async, [&, i] {
+            temporaries[i] = std::make_unique<TemporaryFile>(temporary_beside(files[i].path));
+            return temporaries[i]->write(files[i].bytes);
+        }));
+    for (const auto& error : errors) error.wait();
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (const int error = errors[i].get(); error != 0) cannot_write(files[i].path, error, how_to_go_on);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (const int error = temporaries[i]->rename_to(files[i].path); error != 0)
+            cannot_write(files[i].path, error, how_to_go_on);
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text,

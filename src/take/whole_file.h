@@ -22,6 +22,15 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::by
 void write_whole_file(const std::filesystem::path& path, std::string_view text,
                       std::string_view how_to_go_on = kRunAgain);
 
+struct WholeFile {
+    std::filesystem::path path;
+    std::vector<std::byte> bytes;
+};
+
+/// The same for several files. The disk is asked to keep all of them at once, which takes hardly longer than
+/// for one; then they get their names in the order given. When one cannot be written, none gets its name.
+void write_whole_files(const std::vector<WholeFile>& files, std::string_view how_to_go_on = kRunAgain);
+
 /// Writes all bytes to an open file descriptor; returns 0 or the errno of the failure.
 int write_all(int descriptor, std::span<const std::byte> bytes);
 

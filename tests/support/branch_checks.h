@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fracture/branch_mesh.h"
+#include "fracture/break_ends.h"
 
 namespace windfall::test {
 
@@ -70,6 +71,24 @@ inline std::string complaint_about(const fracture::BranchMesh& mesh) {
     }
     if (const std::size_t bad = bad_edges(mesh.faces); bad > 0) return std::to_string(bad) + " bad edges";
     return "";
+}
+
+/// Whether a cell of the broken surface is turned inside out in the plan. The branch must be straight; its
+/// `taper` (as branch.taper) is taken back.
+inline bool has_inverted_cell(const fracture::BreakEnds& ends, double taper = 0) {
+    for (int r = 1; r < ends.cells.rings; ++r)
+        for (int s = 0; s < ends.cells.sectors; ++s) {
+            const auto& v = ends.cells.of(r, s);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto at = [&](std::size_t i) {
+                    const auto& p = ends.stub.positions[static_cast<std::size_t>(v[i & 3U])];
+                    return Eigen::Vector2d(Eigen::Vector2d(p.x(), p.y()) / (1 - taper * p.z()));
+                };
+                const Eigen::Vector2d a = at(k + 1) - at(k), b = at(k + 3) - at(k);
+                if (!(a.x() * b.y() - a.y() * b.x() > 0)) return true;
+            }
+        }
+    return false;
 }
 
 /// Volume of a closed mesh (signed).

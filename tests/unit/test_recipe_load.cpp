@@ -140,7 +140,7 @@ TEST_F(RecipeLoad, RefusesWhatIsOutOfRange) {
     EXPECT_THAT(complaint(write("[imperfection]\nkind = 'nois'\n")),
                 HasSubstr(":2:1: imperfection.kind must be one of noise, modes, none, not \"nois\""));
     EXPECT_THAT(complaint(write("process = 'rotting'\n")),
-                HasSubstr(":1:1: process must be one of drying, fracture, not \"rotting\""));
+                HasSubstr(":1:1: process must be one of drying, fracture, decay, not \"rotting\""));
 }
 
 TEST_F(RecipeLoad, RefusesWrongTypes) {
