@@ -292,15 +292,9 @@ void RottingPile::advance() {
 std::vector<std::byte> RottingPile::save() const {
     BodyWriter writer;
     writer(static_cast<std::int64_t>(m_frame));
-    const auto add = [&](const std::vector<std::byte>& bytes) {
-        std::vector<std::uint8_t> plain(bytes.size());
-        std::transform(bytes.begin(), bytes.end(), plain.begin(),
-                       [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
-        writer(plain);
-    };
     for (std::size_t f = 0; f < m_skins.size(); ++f) {
-        add(m_bodies->bodies()[f].save());
-        add(m_skins[f].save());
+        writer(m_bodies->bodies()[f].save());
+        writer(m_skins[f].save());
     }
     return writer.take();
 }
@@ -310,14 +304,12 @@ void RottingPile::restore(std::span<const std::byte> state) {
     std::int64_t frame = 0;
     reader(frame);
     m_frame = static_cast<int>(frame);
-    const auto next = [&] {
-        std::vector<std::uint8_t> plain;
-        reader(plain);
-        return plain;
-    };
     for (std::size_t f = 0; f < m_skins.size(); ++f) {
-        m_bodies->bodies()[f].restore(std::as_bytes(std::span<const std::uint8_t>(next())));
-        m_skins[f].restore(std::as_bytes(std::span<const std::uint8_t>(next())));
+        std::vector<std::byte> body, skin;
+        reader(body);
+        reader(skin);
+        m_bodies->bodies()[f].restore(body);
+        m_skins[f].restore(skin);
     }
 }
 

@@ -163,14 +163,8 @@ std::map<std::string, double> RottingSkin::numbers() const {
 
 std::vector<std::byte> RottingSkin::save() const {
     BodyWriter writer;
-    const auto add = [&](const std::vector<std::byte>& bytes) {
-        std::vector<std::uint8_t> plain(bytes.size());
-        std::transform(bytes.begin(), bytes.end(), plain.begin(),
-                       [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
-        writer(plain);
-    };
-    add(m_growth.save());
-    add(m_colonies.save());
+    writer(m_growth.save());
+    writer(m_colonies.save());
     writer(m_ledger.lost_kg());
     writer(m_ledger.water_left_kg());
     writer(m_start_total);
@@ -180,13 +174,11 @@ std::vector<std::byte> RottingSkin::save() const {
 
 void RottingSkin::restore(std::span<const std::byte> state) {
     BodyReader reader(state);
-    const auto next = [&] {
-        std::vector<std::uint8_t> plain;
-        reader(plain);
-        return plain;
-    };
-    m_growth.restore(std::as_bytes(std::span<const std::uint8_t>(next())));
-    m_colonies.restore(std::as_bytes(std::span<const std::uint8_t>(next())));
+    std::vector<std::byte> growth, colonies;
+    reader(growth);
+    reader(colonies);
+    m_growth.restore(growth);
+    m_colonies.restore(colonies);
     double lost = 0, left = 0;
     reader(lost);
     reader(left);

@@ -20,8 +20,9 @@ struct ArtistFruit {
     bool own_uvs = true;  ///< whether maps go into the mesh's own texture coordinates
 
     /// Throws InputError as SphereMap and SphereInterior do.
-    ArtistFruit(geometry::SurfaceMesh its_mesh, bool in_own_uvs)
-        : mesh(std::move(its_mesh)), map(mesh), interior(map), own_uvs(in_own_uvs) {}
+    /// `flesh_cells` as in BodySettings.
+    ArtistFruit(geometry::SurfaceMesh its_mesh, bool in_own_uvs, int flesh_cells)
+        : mesh(std::move(its_mesh)), map(mesh), interior(map, flesh_cells), own_uvs(in_own_uvs) {}
 };
 
 /// Shape of the fruit about its middle (m, z up along the axis), and what came from files with it.

@@ -74,7 +74,8 @@ std::vector<float> mask_of(const decay::Specimen& specimen, const decay::DecayPa
     return mask;
 }
 
-decay::Specimen artist_specimen(const decay::FruitParameters& fruit) {
+decay::Specimen artist_specimen(const decay::DecayParameters& parameters) {
+    const decay::FruitParameters& fruit = parameters.fruit;
     const std::string name = "fruit.mesh " + fruit.mesh;
     geometry::SurfaceMesh mesh = surface_of(meshfile::read(fruit.mesh));
     geometry::require_closed(mesh, name);
@@ -98,15 +99,15 @@ decay::Specimen artist_specimen(const decay::FruitParameters& fruit) {
     const double volume = geometry::enclosed_volume(mesh.positions, mesh.faces);
     const double scale = std::cbrt(fruit.mass_kg / decay::kFruitDensity_kg_m3 / volume);
     for (geometry::Vec3& p : mesh.positions) p = scale * (p - 0.5 * (low + high));
-    return decay::specimen_of(
-        std::make_shared<const decay::ArtistFruit>(std::move(mesh), fruit.uvs == decay::MeshUvs::Own));
+    return decay::specimen_of(std::make_shared<const decay::ArtistFruit>(
+        std::move(mesh), fruit.uvs == decay::MeshUvs::Own, static_cast<int>(parameters.body.flesh_cells)));
 }
 
 }  // namespace
 
 decay::Specimen read_specimen(const decay::DecayParameters& parameters) {
     decay::Specimen specimen = parameters.fruit.kind == decay::FruitKind::Mesh
-                                   ? artist_specimen(parameters.fruit)
+                                   ? artist_specimen(parameters)
                                    : decay::specimen_of(parameters.fruit);
     if (!parameters.start.mask.empty()) specimen.mask = mask_of(specimen, parameters);
     return specimen;

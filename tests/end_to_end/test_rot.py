@@ -2,7 +2,7 @@
 """`windfall rot` as people run it: fruit that rots, its maps, its measures."""
 import hashlib
 import json
-import pathlib
+import math
 import re
 import struct
 import unittest
