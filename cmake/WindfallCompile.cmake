@@ -25,6 +25,13 @@ function(windfall_library name)
   windfall_compile_options(${name})
 endfunction()
 
+# For what runs once a command: a third of the time to compile.
+function(windfall_compile_quickly name)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${name} PRIVATE -O1)
+  endif()
+endfunction()
+
 function(windfall_compile_options name)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-psabi)
   if(WINDFALL_WARNINGS_AS_ERRORS)

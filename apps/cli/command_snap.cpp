@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "commands.h"
@@ -34,10 +36,12 @@ void add_snap(CLI::App& app) {
         "  windfall snap my.toml --dry-run\n"
         "  windfall snap tree.glb --at 0.4,2.1,-0.1 --recipe green-branch -o broken.glb\n"
         "`windfall schema fracture` lists every parameter, `windfall presets` every preset.");
-    command->callback([options] {
+    command->callback([options, command] {
         if (recipe::is_tree_file(options->run.recipe)) return run_snap_tree(options->run, options->tree);
-        if (!options->tree.at.empty())
-            throw InputError("--at needs a tree (.glb, .gltf, .obj, .ply) as the first argument");
+        for (const char* name : {"--at", "--recipe", "--up", "--unit-m", "--falls"})
+            if (command->get_option(name)->count() > 0)
+                throw InputError(
+                    fmt::format("{} needs a tree (.glb, .gltf, .obj, .ply) as the first argument", name));
         run_recipe(options->run, "fracture");
     });
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cancel.h"
+#include "core/parallel.h"
 #include "progress.h"
 #include "recipe/snap_tree.h"
 
@@ -108,6 +109,7 @@ void add_tree_options(CLI::App& command, TreeOptions& tree) {
 }
 
 void run_snap_tree(const RunOptions& options, const TreeOptions& tree) {
+    const ThreadLimit threads(options.threads);
     run_and_report(options.progress, [&](ProgressPrinter& printer) { snap(options, tree, printer); });
 }
 

@@ -25,9 +25,9 @@ constexpr int kHullCells = 4;
 constexpr double kStep_s = 1.0 / 240;
 constexpr double kLongest_s = 60;
 constexpr double kBetweenDrops_s = 0.5;
-/// At rest is what has moved no farther than kStill_m in kStill_s: speeds alone would show the solver's
+/// At rest is what has moved no farther than kAtRest_m in kStill_s: speeds alone would show the solver's
 /// tremble.
-constexpr double kStill_m = 0.2e-3;
+constexpr double kAtRest_m = 0.2e-3;
 constexpr int kStillSteps = 120;
 /// Damping grows to the second value in so many seconds after the last drop, which brings every pile to rest.
 constexpr double kLinearDamping[2] = {0.1, 0.9};
@@ -300,7 +300,7 @@ SettledPile settle_pile(const std::vector<PileFruit>& fruit, const PileSettings&
         world.step();
         world.calm(std::clamp((pile.seconds - last_drop_s) / kCalming_s, 0.0, 1.0));
         if (step % kStillSteps != 0 || dropped < fruit.size()) continue;
-        if (before.size() == dropped && world.farthest_m(before) < kStill_m) break;
+        if (before.size() == dropped && world.farthest_m(before) < kAtRest_m) break;
         before = world.poses();
     }
     pile.poses = world.poses();

@@ -11,6 +11,10 @@
 
 namespace windfall::fracture {
 
+/// Height of an arc over its chord that an irregular outline adds, over that of the circle and per
+/// branch.outline; and how much of a cell it may be where thorns stand.
+inline constexpr double kOutlineBend = 6, kMostOutlineBend = 0.1;
+
 /// The lattice over the cross-section. Node (R, S), R = 0 .. rings, and cell (R, S), R = 0 .. rings - 1, have
 /// index R * sectors + S. Ring 0 of nodes is the pith.
 struct PolarLattice {
@@ -49,6 +53,7 @@ struct ThornSite {
 struct SurfaceVertices {
     std::vector<float> x, y, z, thorn;
     std::vector<std::uint32_t> name;
+    std::vector<std::uint32_t> particle;  ///< the node of the lattice, ring and sector in 16 bits each
     std::vector<Tissue> tissue;
 };
 
@@ -61,12 +66,11 @@ struct BreakWorkspace::Buffers {
     SurfaceVertices vertices;
     std::vector<float> warped_radius, warped_angle, centre_x, centre_y, roughness;
     std::vector<float> amplitude, frequency;
-    std::vector<std::uint32_t> noise_seeds;
     std::vector<std::int32_t> site_of_bundle;
     std::vector<std::uint32_t> finest_bundle;  ///< of each cell of wood, in the last table
 };
 
-/// Nodes of the lattice, each moved by up to an eighth of a cell so that no ray and no ring is straight.
+/// Nodes of the lattice, each moved by up to a tenth of a cell so that no ray and no ring is straight.
 void lay_out_lattice(const FractureParameters& parameters, PolarLattice& lattice);
 
 /// Tilt, layers, bundles, thorns: heights and names of all cells.

@@ -1,8 +1,11 @@
 #include "fracture/break_ends.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "fracture/break_buffers.h"
 
 namespace windfall::fracture {
@@ -102,7 +105,14 @@ void make_break_ends(const FractureParameters& parameters, BreakEnds& ends, Brea
     fill_cells(parameters, b);
     build_surface(parameters, b, ends);
     ends.mean_height = mean_height(b.vertices, ends.stub.faces, ends.surface_faces);
-    if (parameters.fracture.height_from != HeightSource::Amplitudes && ends.mean_height > kFlat) {
+    if (parameters.fracture.height_from != HeightSource::Amplitudes) {
+        if (ends.mean_height <= kFlat)
+            throw InputError(
+                fmt::format("the broken surface is flat, so that nothing can be scaled to the mean height of "
+                            "{:.4g} radii: "
+                            "give it break.tilt_deg, roughness.* or bundles.*, or set break.height_from = "
+                            "\"amplitudes\"",
+                            parameters.fracture.mean_height));
         scale_heights(parameters.fracture.mean_height / ends.mean_height, b.vertices);
         ends.mean_height = parameters.fracture.mean_height;
     }

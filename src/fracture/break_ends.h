@@ -27,7 +27,7 @@ struct CellCorners {
 /// fibre bundles end beside each other two of them follow at one angle.
 struct RimVertex {
     std::int32_t vertex;
-    float angle;  ///< rad, 0 .. 2 pi, rising
+    float angle;  ///< rad, rising; the first may lie a little below 0, by the jitter of the nodes
 };
 
 /// Both ends in the unplaced branch with gap 0, without bark and cut ends: each mesh is an open disc (and its
@@ -59,7 +59,8 @@ class BreakWorkspace {
     std::unique_ptr<Buffers> m_buffers;
 };
 
-/// Makes both ends; `parameters` must have passed `check`. The result depends on them alone.
+/// Makes both ends; `parameters` must have passed `check`. The result depends on them alone. Throws
+/// InputError when a flat surface is to be scaled to a height.
 void make_break_ends(const FractureParameters& parameters, BreakEnds& ends, BreakWorkspace& workspace);
 
 }  // namespace windfall::fracture

@@ -37,7 +37,7 @@ class VertexMaker {
         make_room();
         m_corners.resize(lattice.cells());
         m_rim.clear();
-        const std::int32_t pith = add(0, 0, 0);
+        const std::int32_t pith = add(0, particle(0, 0), 0, 0);
         for (std::size_t s = 0; s < static_cast<std::size_t>(lattice.sectors); ++s)
             m_corners[s][0] = m_corners[s][3] = pith;
         for (int r = 1; r < lattice.rings; ++r) {
@@ -57,6 +57,7 @@ class VertexMaker {
         m_v.z.resize(count);
         m_v.thorn.resize(count);
         m_v.name.resize(count);
+        m_v.particle.resize(count);
         m_v.tissue.resize(count);
     }
     void make_room() {
@@ -64,7 +65,11 @@ class VertexMaker {
         if (needed > m_v.x.size()) resize(needed + needed / 4);
     }
 
-    std::int32_t add(std::size_t c, float x, float y) {
+    static std::uint32_t particle(int r, int s) {
+        return static_cast<std::uint32_t>(r) << 16U | static_cast<std::uint32_t>(s);
+    }
+
+    std::int32_t add(std::size_t c, std::uint32_t particle, float x, float y) {
         const BreakCells& cells = m_b.cells;
         const std::size_t i = m_count++;
         m_v.x[i] = x;
@@ -72,6 +77,7 @@ class VertexMaker {
         m_v.z[i] = cells.height[c] + cells.slope_x[c] * x + cells.slope_y[c] * y;
         m_v.thorn[i] = cells.thorn[c];
         m_v.name[i] = cells.name[c];
+        m_v.particle[i] = particle;
         m_v.tissue[i] = cells.tissue[c];
         return static_cast<std::int32_t>(i);
     }
@@ -88,7 +94,7 @@ class VertexMaker {
         const std::size_t node = lattice.cell(r, s);
         const float x = lattice.node_x[node], y = lattice.node_y[node];
         if (names[0] == names[1] && names[1] == names[2] && names[2] == names[3]) {
-            const std::int32_t v = add(cell[0], x, y);
+            const std::int32_t v = add(cell[0], particle(r, s), x, y);
             m_corners[cell[0]][2] = m_corners[cell[1]][3] = m_corners[cell[2]][0] = m_corners[cell[3]][1] = v;
             return;
         }
@@ -112,8 +118,9 @@ class VertexMaker {
                 ++length;
             } while (done + length < 4 && names[(first + length) & 3U] == names[first & 3U]);
             const float share = 1 / static_cast<float>(length);
-            const std::int32_t v = add(cell[first & 3U], x + share * (out * out_x + around * around_x),
-                                       y + share * (out * out_y + around * around_y));
+            const std::int32_t v =
+                add(cell[first & 3U], particle(r, s), x + share * (out * out_x + around * around_x),
+                    y + share * (out * out_y + around * around_y));
             for (std::size_t k = first; k < first + length; ++k) m_corners[cell[k & 3U]][kCorner[k & 3U]] = v;
             done += length;
         }
@@ -128,15 +135,15 @@ class VertexMaker {
         const float x = lattice.node_x[node], y = lattice.node_y[node];
         const float angle = lattice.rim_angle[static_cast<std::size_t>(s)];
         if (m_b.cells.name[before] == m_b.cells.name[behind]) {
-            const std::int32_t v = add(behind, x, y);
+            const std::int32_t v = add(behind, particle(lattice.rings, s), x, y);
             m_corners[before][2] = m_corners[behind][1] = v;
             m_rim.push_back({v, angle});
             return;
         }
         const float turn = split_turn(lattice, lattice.rings);
         const float c = 1 - 0.5F * turn * turn;
-        const std::int32_t a = add(before, c * x + turn * y, c * y - turn * x);
-        const std::int32_t b = add(behind, c * x - turn * y, c * y + turn * x);
+        const std::int32_t a = add(before, particle(lattice.rings, s), c * x + turn * y, c * y - turn * x);
+        const std::int32_t b = add(behind, particle(lattice.rings, s), c * x - turn * y, c * y + turn * x);
         m_corners[before][2] = a;
         m_corners[behind][1] = b;
         m_rim.push_back({a, angle - turn});
@@ -167,7 +174,6 @@ void add_roughness(const FractureParameters& parameters, BreakWorkspace::Buffers
     const std::size_t count = v.x.size();
     b.amplitude.resize(count);
     b.frequency.resize(count);
-    b.noise_seeds.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto tissue = static_cast<std::size_t>(v.tissue[i]);
         b.amplitude[i] = lambda[tissue];
@@ -188,12 +194,13 @@ void add_roughness(const FractureParameters& parameters, BreakWorkspace::Buffers
         share *= 0.5F;
         scale *= 2;
     }
+    // The vertices of a node share its number, so that none changes where a thorn or a bundle splits one.
+    const std::uint32_t* __restrict particle = v.particle.data();
     share = 1;
     for (std::uint32_t octave = 0; octave < static_cast<std::uint32_t>(p.white_octaves); ++octave) {
         for (std::size_t i = 0; i < count; ++i)
-            z[i] +=
-                share * amplitude[i] *
-                (2 * random_unit(seed, NoisePurpose::WhiteNoise, static_cast<std::uint32_t>(i), octave) - 1);
+            z[i] += share * amplitude[i] *
+                    (2 * random_unit(seed, NoisePurpose::WhiteNoise, particle[i], octave) - 1);
         share *= 0.5F;
     }
 }

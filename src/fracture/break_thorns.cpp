@@ -27,7 +27,11 @@ struct Block {
 class ThornPlacer {
   public:
     ThornPlacer(const FractureParameters& p, const BreakWorkspace::Buffers& b, BreakEnds& ends)
-        : m_p(p), m_b(b), m_ends(ends), m_release(release(p, ends)) {}
+        : m_p(p),
+          m_b(b),
+          m_ends(ends),
+          m_bend(static_cast<float>(kOutlineBend * p.branch.outline)),
+          m_release(release(p, ends)) {}
 
     void place() {
         for (std::size_t i = 0; i < m_b.sites.size(); ++i) place(m_b.sites[i], static_cast<std::int32_t>(i));
@@ -42,11 +46,12 @@ class ThornPlacer {
         return r >= 1 && r < m_b.lattice.rings && m_b.cells.fibre[cell(r, s)] == site;
     }
 
-    /// Height of an arc of so many sectors over its chord, in rings.
+    /// Height of an arc of so many sectors over its chord, in rings, once the branch has its outline.
     float sagitta(int ring, int sectors) const {
-        const float width =
-            static_cast<float>(sectors) * kTwoPi<float> / static_cast<float>(m_b.lattice.sectors);
-        return static_cast<float>(ring) * (1 - std::cos(0.5F * width));
+        return static_cast<float>(ring) * (1 + m_bend) * (1 - std::cos(0.5F * angle(sectors)));
+    }
+    float angle(int sectors) const {
+        return static_cast<float>(sectors) * kTwoPi<float> / static_cast<float>(m_b.lattice.sectors);
     }
 
     Block grown(const ThornSite& site, std::int32_t index) const {
@@ -169,7 +174,7 @@ class ThornPlacer {
     const FractureParameters& m_p;
     const BreakWorkspace::Buffers& m_b;
     BreakEnds& m_ends;
-    float m_release;
+    float m_bend, m_release;
 };
 
 }  // namespace

@@ -47,6 +47,7 @@ CrackCount make_unplaced(const FractureParameters& parameters, BreakEnds& ends, 
         return log.cracks;
     }
     make_break_ends(parameters, ends, workspace);
+    check_heights(parameters, ends.lowest, ends.highest);
     CrackCount cracks;
     if (has_cracks(parameters.cracks)) cracks = open_cracks(ends, parameters);
     if (stand_apart(parameters, ends)) add_strips(parameters, ends);

@@ -87,6 +87,9 @@ class CrackedSection {
     };
     /// Halves, once, the opening of every crack that moves one of the cells; false if there was none.
     bool narrow_around(const std::vector<Cell>& cells);
+    /// The last resort: closes every open crack that moves one of the cells, which counts it as dropped;
+    /// false if there was none.
+    bool close_around(const std::vector<Cell>& cells);
 
   private:
     double crookedness(double radius, double z) const;

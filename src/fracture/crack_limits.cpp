@@ -81,4 +81,22 @@ bool CrackedSection::narrow_around(const std::vector<Cell>& cells) {
     return any;
 }
 
+bool CrackedSection::close_around(const std::vector<Cell>& cells) {
+    bool any = false;
+    for (LatticeCrack& crack : m_cracks) {
+        const bool moves_one = crack.crack.half_width > 0 &&
+                               std::any_of(cells.begin(), cells.end(),
+                                           [&](const Cell& cell) { return moves_cell(crack, cell); });
+        if (!moves_one) continue;
+        for (double& opening : crack.opening) opening = 0;
+        crack.crack.half_width = 0;
+        ++m_count.dropped;
+        --m_count.opened;
+        if (crack.crack.narrowed) --m_count.narrowed;
+        crack.crack.narrowed = false;
+        any = true;
+    }
+    return any;
+}
+
 }  // namespace windfall::fracture

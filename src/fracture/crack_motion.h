@@ -29,6 +29,7 @@ class CrackMotion {
 
     /// Halves the wandering.
     void calm() { m_wander.calm(); }
+    bool stop_wander() { return m_wander.stop(); }
 
   private:
     CrackShift shift(double radius, double angle, const SurfaceCell& cell,

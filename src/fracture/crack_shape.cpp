@@ -113,6 +113,18 @@ void CrackShape::straighten() {
         if (folds.empty() && !rays_fold) return;
         if (rays_fold || !m_section.narrow_around(folds) || attempt % 4 == 0) m_wander.calm();
     }
+    give_up();
+}
+
+void CrackShape::give_up() {
+    while (true) {
+        m_cut_face = layer(0);
+        m_lower_end = layer(-m_length);
+        const Cells folds = folded_cells(pressed_cells(m_cut_face, kAmpleJacobian));
+        const bool rays_fold = !pressed_cells(m_lower_end, kLeastOfWander).empty();
+        if (folds.empty() && !rays_fold) return;
+        if (!m_section.close_around(folds) && !m_wander.stop()) return;
+    }
 }
 
 }  // namespace windfall::fracture

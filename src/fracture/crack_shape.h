@@ -50,6 +50,8 @@ class CrackShape {
     /// Those of `cells` that fold at the cut face or at some height below it.
     Cells folded_cells(const Cells& cells) const;
     void straighten();
+    /// Closes cracks and, at last, stops the rays until nothing folds: without both nothing can.
+    void give_up();
 
     CrackedSection m_section;
     CrackWander m_wander;

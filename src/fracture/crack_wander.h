@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fracture/parameters.h"
@@ -28,6 +29,8 @@ class CrackWander {
 
     /// Halves the displacement.
     void calm() { m_scale *= 0.5F; }
+    /// Nothing moves any more; false when nothing did before.
+    bool stop() { return std::exchange(m_scale, 0.0F) > 0; }
 
   private:
     struct Octave {

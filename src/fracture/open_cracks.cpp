@@ -89,6 +89,12 @@ class CrackOpener {
             m_section.narrow_around(folds);
             if (trial % 4 == 0) m_motion.calm();
         }
+        // Closed cracks on rays that do not wander leave everything where it was.
+        while (true) {
+            move_surface();
+            const std::vector<CrackedSection::Cell> folds = folded_cells(kLeastOfFaces);
+            if (folds.empty() || (!m_section.close_around(folds) && !m_motion.stop_wander())) return;
+        }
     }
 
     /// Lets the rays wander less until they leave room for cracks.

@@ -1,5 +1,6 @@
 #include "fracture/parameters.h"
 
+#include "core/parameter_group.h"
 #include "fracture/parameters_colours.h"
 
 namespace windfall::fracture {
@@ -8,34 +9,6 @@ namespace {
 
 using Table = ParameterTable<FractureParameters>;
 
-/// The keys of one group, bound to the members of its struct.
-template <class Group>
-class GroupOfKeys {
-  public:
-    GroupOfKeys(Table& table, std::string name, Group FractureParameters::*group)
-        : m_table(table), m_name(std::move(name)), m_group(group) {}
-
-    template <class Value>
-    void add(const std::string& key, const std::string& unit, Value Group::*member, const std::string& doc,
-             const ParameterRange& range = {}) {
-        m_table.add(
-            m_name + "." + key, unit,
-            [ group = m_group, member ](auto& p) -> auto& { return p.*group.*member; }, doc, range);
-    }
-    template <class Value>
-    void add_choice(const std::string& key, Value Group::*member, const std::vector<std::string>& choices,
-                    const std::string& doc) {
-        m_table.add_choice(
-            m_name + "." + key, [ group = m_group, member ](auto& p) -> auto& { return p.*group.*member; },
-            choices, doc);
-    }
-
-  private:
-    Table& m_table;
-    std::string m_name;
-    Group FractureParameters::*m_group;
-};
-
 constexpr ParameterRange kShare = {.minimum = 0, .maximum = 1};
 constexpr ParameterRange kAround = {.minimum = 0, .maximum = 360};
 constexpr ParameterRange kThornLength = {.minimum = 0, .maximum = 40};
@@ -43,10 +16,10 @@ constexpr ParameterRange kSkew = {.minimum = 0.1, .maximum = 10};
 
 void add_branch(Table& table) {
     using P = BranchParameters;
-    GroupOfKeys t(table, "branch", &FractureParameters::branch);
+    ParameterGroup t(table, "branch", &FractureParameters::branch);
     t.add("diameter_m", "m", &P::diameter_m,
           "real diameter D at the break; the noise frequencies are per metre of it",
-          {.maximum = 5, .above = 0});
+          {.minimum = 1e-4, .maximum = 5});
     t.add("rings", "1", &P::rings, "rings of particles from the pith out: finer, the same break",
           {.minimum = 3, .maximum = 400});
     t.add("sectors", "1", &P::sectors,
@@ -70,7 +43,7 @@ void add_branch(Table& table) {
 
 void add_tissue(Table& table) {
     using P = TissueParameters;
-    GroupOfKeys t(table, "tissue", &FractureParameters::tissue);
+    ParameterGroup t(table, "tissue", &FractureParameters::tissue);
     t.add("pith", "1", &P::pith, "share of the radius that is pith", kShare);
     t.add("heartwood", "1", &P::heartwood, "share that is heartwood; sapwood takes what is left", kShare);
     t.add("phloem", "1", &P::phloem, "share that is phloem, the inner bark", kShare);
@@ -78,7 +51,7 @@ void add_tissue(Table& table) {
 
 void add_break(Table& table) {
     using P = BreakParameters;
-    GroupOfKeys t(table, "break", &FractureParameters::fracture);
+    ParameterGroup t(table, "break", &FractureParameters::fracture);
     t.add_choice("end", &P::end, {"broken", "cut"},
                  "a broken branch, or a sawn log whose upper end is flat and shows the cracks");
     t.add("tilt_deg", "deg", &P::tilt_deg, "tilt of the broken surface, phi; 0: straight across",
@@ -97,7 +70,7 @@ void add_break(Table& table) {
 void add_layer(Table& table, const std::string& name, LayerParameters FractureParameters::*layer,
                const ParameterRange& heights, const std::string& what) {
     using P = LayerParameters;
-    GroupOfKeys t(table, name, layer);
+    ParameterGroup t(table, name, layer);
     t.add("height", "radii", &P::height, "how much " + what + ", h", heights);
     t.add("angle_deg", "deg", &P::angle_deg, "middle of that sector, alpha", kAround);
     t.add("width_deg", "deg", &P::width_deg, "width of that sector, theta; 0: there is none", kAround);
@@ -106,7 +79,7 @@ void add_layer(Table& table, const std::string& name, LayerParameters FracturePa
 
 void add_roughness(Table& table) {
     using P = RoughnessParameters;
-    GroupOfKeys t(table, "roughness", &FractureParameters::roughness);
+    ParameterGroup t(table, "roughness", &FractureParameters::roughness);
     const ParameterRange lambda = {.minimum = 0, .maximum = 5};
     t.add("phloem", "radii", &P::phloem, "height of the noise in phloem, lambda", lambda);
     t.add("sapwood", "radii", &P::sapwood, "height of the noise in sapwood", lambda);
@@ -126,7 +99,7 @@ void add_roughness(Table& table) {
 
 void add_thorns(Table& table) {
     using P = ThornParameters;
-    GroupOfKeys t(table, "thorns", &FractureParameters::thorns);
+    ParameterGroup t(table, "thorns", &FractureParameters::thorns);
     const auto add_tissue_thorns = [&](const std::string& name, double P::*length, double P::*probability) {
         t.add(name + "_length", "radii", length, "longest thorn in " + name + ", L", kThornLength);
         t.add(name + "_probability", "1", probability,
@@ -141,7 +114,7 @@ void add_thorns(Table& table) {
 
 void add_ductile(Table& table) {
     using P = DuctileParameters;
-    GroupOfKeys t(table, "ductile", &FractureParameters::ductile);
+    ParameterGroup t(table, "ductile", &FractureParameters::ductile);
     t.add("length", "radii", &P::length, "longest thorn on the side that was under tension, L_D",
           kThornLength);
     t.add("probability", "1", &P::probability, "share of the cells there that carry a thorn, P_D", kShare);
@@ -152,7 +125,7 @@ void add_ductile(Table& table) {
 
 void add_bundles(Table& table) {
     using P = BundleParameters;
-    GroupOfKeys t(table, "bundles", &FractureParameters::bundles);
+    ParameterGroup t(table, "bundles", &FractureParameters::bundles);
     const ParameterRange size = {.minimum = 0.005, .maximum = 6.3};
     t.add("radial", "radii", &P::radial,
           "size of the fibre bundles along the ray, an entry a level, coarse to fine; []: no bundles", size);
@@ -178,7 +151,7 @@ void add_bundles(Table& table) {
 
 void add_fringe(Table& table) {
     using P = FringeParameters;
-    GroupOfKeys t(table, "fringe", &FractureParameters::fringe);
+    ParameterGroup t(table, "fringe", &FractureParameters::fringe);
     const ParameterRange length = {.maximum = 20, .above = 0}, curl = {.minimum = 0, .maximum = 10};
     t.add("strands", "1", &P::strands, "torn single fibres; they stand out once the ends are apart",
           {.minimum = 0, .maximum = 5000});
@@ -195,7 +168,7 @@ void add_fringe(Table& table) {
 
 void add_load(Table& table) {
     using P = LoadParameters;
-    GroupOfKeys t(table, "load", &FractureParameters::load);
+    ParameterGroup t(table, "load", &FractureParameters::load);
     t.add_choice("source", &P::source, {"by_hand", "bending"},
                  "by_hand: tilt and ductile zone as they are set; bending: from the load, by beam theory");
     t.add("direction_deg", "deg", &P::direction_deg,
@@ -206,7 +179,7 @@ void add_load(Table& table) {
 
 void add_species(Table& table) {
     using P = SpeciesParameters;
-    GroupOfKeys t(table, "species", &FractureParameters::species);
+    ParameterGroup t(table, "species", &FractureParameters::species);
     t.add_choice("name", &P::name,
                  {"custom", "juniperus", "juniperus-chinensis", "ailanthus", "koelreuteria"},
                  "the wood, for the height law and for drying; custom: the numbers below");
@@ -249,7 +222,7 @@ void add_cracks(Table& table) {
     add_class("medium", &P::medium, "medium radial cracks", 1, "rad");
     add_class("small", &P::small, "small radial cracks", 1, "rad");
     add_class("tangential", &P::tangential, "cracks along the rings", 6.3, "radii");
-    GroupOfKeys t(table, "cracks", &FractureParameters::cracks);
+    ParameterGroup t(table, "cracks", &FractureParameters::cracks);
     t.add("check", "1", &P::check, "the one big check that opens from the pith through the bark");
     t.add("check_angle_deg", "deg", &P::check_angle_deg, "where it is", kAround);
     t.add("check_depth", "radii", &P::check_depth, "its depth from the end", {.maximum = 20, .above = 0});
@@ -262,7 +235,7 @@ void add_cracks(Table& table) {
 
 void add_output(Table& table) {
     using P = OutputParameters;
-    GroupOfKeys t(table, "output", &FractureParameters::output);
+    ParameterGroup t(table, "output", &FractureParameters::output);
     t.add_choice("piece", &P::piece, {"above", "beside", "hidden"},
                  "where the fallen piece is: over the stub at break.gap, beside it, or left out");
     t.add_choice("motion", &P::motion, {"still", "breaking"},

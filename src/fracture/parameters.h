@@ -188,4 +188,9 @@ const ParameterTable<FractureParameters>& fracture_parameters();
 /// remedy.
 void check(const FractureParameters& parameters);
 
+/// What `check` can only guess, once the broken surface is there: `lowest` and `highest` are its z in the
+/// unplaced branch, holes included. Throws InputError where the break is absurdly high, the thin end would
+/// vanish or a bend fold.
+void check_heights(const FractureParameters& parameters, double lowest, double highest);
+
 }  // namespace windfall::fracture

@@ -13,6 +13,7 @@ namespace windfall::fracture {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+constexpr double kHighest = 250;  // radii; beyond that single precision would show steps
 
 void check_tissues(const TissueParameters& tissue) {
     const double sum = tissue.pith + tissue.heartwood + tissue.phloem;
@@ -52,25 +53,29 @@ std::vector<Contribution> possible_heights(const FractureParameters& p) {
         bundles +=
             p.bundles.amplitude[i] + p.bundles.slope[i] * std::max(p.bundles.radial[i], p.bundles.angular[i]);
     if (p.bundles.amplitude.empty()) bundles = 0;
+    // The longest strip of bark, as bark_strips draws them.
+    const double strips = p.fringe.strips > 0 ? 1.4 * p.fringe.strip_length : 0;
     const auto thorn = [](double length, double probability) { return probability > 0 ? length : 0; };
     return {
         {"break.tilt_deg", 2 * std::tan(p.fracture.tilt_deg * kRadiansPerDegree)},
         {"high.height and low.height", p.high.height - p.low.height},
         {"roughness.phloem, roughness.sapwood and roughness.heartwood",
          4 * std::max({p.roughness.phloem, p.roughness.sapwood, p.roughness.heartwood})},
-        {"thorns.*_length and ductile.length",
+        {"thorns.*_length, ductile.length and fringe.strand_length",
          std::max({thorn(p.thorns.pith_length, p.thorns.pith_probability),
                    thorn(p.thorns.heartwood_length, p.thorns.heartwood_probability),
                    thorn(p.thorns.sapwood_length, p.thorns.sapwood_probability),
                    thorn(p.thorns.phloem_length, p.thorns.phloem_probability),
-                   thorn(p.ductile.length, p.ductile.probability)})},
+                   thorn(p.ductile.length, p.ductile.probability),
+                   thorn(p.fringe.strand_length, static_cast<double>(p.fringe.strands))})},
         {"bundles.amplitude and bundles.slope", bundles},
+        {"fringe.strip_length", strips},
     };
 }
 
-/// The height that the broken surface stays below; throws when that is absurd.
+/// The height that the broken surface stays below; throws when that is absurd. Of a surface that is scaled
+/// nothing is known but its thorns; check_heights tells the rest.
 double checked_height(const FractureParameters& p) {
-    constexpr double kHighest = 250;  // radii; beyond that single precision would show steps
     if (p.fracture.end == EndKind::Cut) return 0;
     const std::vector<Contribution> contributions = possible_heights(p);
     double sum = 0;
@@ -82,18 +87,18 @@ double checked_height(const FractureParameters& p) {
             fmt::format("the break could become {:.4g} radii high, and {} are the most possible: lower {} "
                         "({:.4g} radii of it)",
                         sum, kHighest, largest->keys, largest->height));
-    return sum;
+    return p.fracture.height_from == HeightSource::Amplitudes ? sum : 0;
 }
 
-/// `height` of the break, which stands on the stub and in the piece. The thin end must not vanish, the inner
-/// side of a bend not run backwards, and the branch not meet itself.
-void check_limb(const BranchParameters& branch, double height) {
+/// `above` and `below`: how far the break reaches up and down from its middle. The thin end must not vanish,
+/// the inner side of a bend not run backwards, and the branch not meet itself.
+void check_limb(const BranchParameters& branch, double above, double below) {
     constexpr double kThinnest = 0.05;  // radii
-    const double upwards = branch.piece_length + height, downwards = branch.length + height;
+    const double upwards = branch.piece_length + above, downwards = branch.length + below;
     if (1 - branch.taper * upwards < kThinnest)
         throw InputError(fmt::format(
             "branch.taper {:.4g} leaves nothing of the branch {:.4g} radii above the break: set branch.taper "
-            "to at most {:.4f}, or a smaller branch.piece_length",
+            "to at most {:.4f}, a smaller branch.piece_length or a lower break (break.mean_height)",
             branch.taper, upwards, (1 - kThinnest) / upwards));
     constexpr double kTightest = 1.5;  // radius of the bend over that of the branch
     const double length = branch.length + branch.piece_length;
@@ -109,17 +114,53 @@ void check_limb(const BranchParameters& branch, double height) {
                         branch.bend_deg, length, std::floor(most)));
 }
 
+/// Edges of the mesh are straight: over a tall break, or in rows that are far apart, they would leave a bent
+/// branch. `height` of the break.
+void check_chords(const BranchParameters& branch, double height) {
+    // Of an edge from its arc, radii: of a wall of the broken surface, of a row of the bark.
+    constexpr double kMostOff = 1, kMostOffRow = 0.5;
+    const double curvature =
+        std::abs(branch.bend_deg) * kRadiansPerDegree / (branch.length + branch.piece_length);
+    const double left = 1 - 1 / static_cast<double>(std::max<std::int64_t>(2, branch.layers) - 1);
+    const double row = (std::max(branch.length, branch.piece_length) + height) * (1 - left * left);
+    if (curvature * height * height / 8 > kMostOff)
+        throw InputError(fmt::format(
+            "branch.bend_deg {} is too much for a break that is {:.4g} radii high: bend it by at most {:.2g} "
+            "degrees, lower the break or make the branch longer",
+            branch.bend_deg, height,
+            std::abs(branch.bend_deg) * 8 * kMostOff / (curvature * height * height)));
+    if (curvature * row * row / 8 > kMostOffRow)
+        throw InputError(fmt::format(
+            "branch.layers {} are too few for branch.bend_deg {}: rows of the bark would be {:.3g} "
+            "radii apart; set branch.layers = {:.0f} or more, or bend it less",
+            branch.layers, branch.bend_deg, row,
+            std::ceil(1 + 2 * (std::max(branch.length, branch.piece_length) + height) /
+                              std::sqrt(8 * kMostOffRow / curvature))));
+}
+
 }  // namespace
 
 void check(const FractureParameters& parameters) {
     check_tissues(parameters.tissue);
     check_bundles(parameters.bundles);
-    check_limb(parameters.branch, checked_height(parameters));
+    const double height = checked_height(parameters);
+    check_limb(parameters.branch, height, height);
     check_colours(parameters);
     if (parameters.output.motion == Motion::Breaking && parameters.fracture.end == EndKind::Cut)
         throw InputError(
             "output.motion = \"breaking\" needs a broken branch: set break.end = \"broken\", or "
             "output.motion = \"still\" for the sawn log");
+}
+
+void check_heights(const FractureParameters& parameters, double lowest, double highest) {
+    constexpr double kRoom = 0.02;  // radii, for the rim between bark and broken surface
+    if (highest - lowest > kHighest)
+        throw InputError(fmt::format(
+            "the break is {:.4g} radii high, and {} are the most possible: lower break.mean_height, or what "
+            "makes few places stand out (high.height, thorns, bundles.amplitude, bundles.skew)",
+            highest - lowest, kHighest));
+    check_limb(parameters.branch, highest + kRoom, kRoom - lowest);
+    check_chords(parameters.branch, highest - lowest);
 }
 
 }  // namespace windfall::fracture

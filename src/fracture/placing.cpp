@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fracture/break_buffers.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
@@ -12,6 +13,32 @@ namespace {
 
 // Between the axes of the stub and of the piece beside it, in radii, for straight branches.
 constexpr float kBeside = 2.7F;
+// The deepest furrow over the relief (see BarkRelief).
+constexpr double kDeepestFurrow = 1.4;
+// What furrows may take of the distances along a ray, so that none turns round.
+constexpr double kMostFurrowed = 0.7;
+// How fast the relief changes with the angle, at bark_scale 1, over a fifth of a sector (the nodes' jitter)
+// times the sectors; and how much of a cell it may take that way.
+constexpr double kFurrowSlope = 38, kMostTwist = 0.4;
+// Along the branch, from the break to the full relief, in radii.
+constexpr float kFurrowFade = 0.5F;
+constexpr double kLeastFurrowWidth = 0.02;
+
+bool has_thorns(const FractureParameters& p) {
+    const ThornParameters& t = p.thorns;
+    return p.fringe.strands > 0 || p.ductile.probability > 0 || t.pith_probability > 0 ||
+           t.heartwood_probability > 0 || t.sapwood_probability > 0 || t.phloem_probability > 0;
+}
+
+/// In cells that are much wider than high a strong outline would bend the holes of thorns more than the
+/// thorns in them: there it is weaker. On lattices of about three sectors a ring it is as asked.
+float outline_of(const FractureParameters& p) {
+    const double outline = p.branch.outline;
+    if (!has_thorns(p)) return static_cast<float>(outline);
+    const double width = 2 * std::numbers::pi / static_cast<double>(p.branch.sectors);
+    const double bend = kOutlineBend * width * width / 8 * static_cast<double>(p.branch.rings);  // cells
+    return static_cast<float>(std::min(outline, kMostOutlineBend / bend));
+}
 
 }  // namespace
 
@@ -29,39 +56,73 @@ struct LimbShape::Block {
 
 LimbShape::LimbShape(const FractureParameters& p, double lowest, double highest)
     : m_outline_seed(noise_key(noise_seed(p.seed), NoisePurpose::Outline, 0)),
-      m_bark(noise_seed(p.seed), p.branch.bark_relief, p.branch.bark_scale),
-      m_phloem(std::max(0.02F, static_cast<float>(p.tissue.phloem))),
-      m_outline(static_cast<float>(p.branch.outline)),
+      m_bark(noise_seed(p.seed), 1, p.branch.bark_scale),
+      m_at_break(furrows_at_break(p)),
+      m_away(furrows_away(p)),
+      m_outline(outline_of(p)),
       m_taper(static_cast<float>(p.branch.taper)),
       m_curvature(static_cast<float>(p.branch.bend_deg * std::numbers::pi / 180 /
                                      (p.branch.length + p.branch.piece_length))),
       m_lowest(static_cast<float>(lowest)),
       m_highest(static_cast<float>(highest)) {}
 
+/// Along a ray r becomes r (1 - d (r - 1 + width) / width) where the furrow is d deep: from 1 - d (1 + 1 /
+/// width) of a distance on.
+LimbShape::Furrows LimbShape::furrows_at_break(const FractureParameters& p) {
+    double width = std::max(kLeastFurrowWidth, p.tissue.phloem);
+    if (has_thorns(p)) {
+        // Thorns stand up to the last ring but one; with bundles, and strands anywhere, only in the wood.
+        // Jitter and the tissue's border take a part of a cell.
+        const double ring = 1 / static_cast<double>(p.branch.rings);
+        const bool in_bark =
+            p.bundles.radial.empty() && (p.thorns.phloem_probability > 0 || p.ductile.probability > 0);
+        width = std::max(0.8 * ring, in_bark ? 0.0 : p.tissue.phloem - 0.7 * ring);
+    }
+    const double most = kMostFurrowed / (kDeepestFurrow * (1 + 1 / width));
+    // Nodes on a ray stray from it to both sides, where furrows are narrow to other depths.
+    const double of_narrow = kMostTwist * static_cast<double>(p.branch.sectors) /
+                             (kFurrowSlope * p.branch.bark_scale * static_cast<double>(p.branch.rings));
+    return {static_cast<float>(std::min({p.branch.bark_relief, most, of_narrow})), static_cast<float>(width)};
+}
+
+/// Far from the break there is room for all furrows: they reach as deep as they need.
+LimbShape::Furrows LimbShape::furrows_away(const FractureParameters& p) {
+    const double deepest = kDeepestFurrow * p.branch.bark_relief;
+    const double needed = deepest < kMostFurrowed ? deepest / (kMostFurrowed - deepest) : 1.0;
+    return {static_cast<float>(p.branch.bark_relief),
+            static_cast<float>(std::clamp(needed, std::max(kLeastFurrowWidth, p.tissue.phloem), 1.0))};
+}
+
 /// Fills `scale`, the factor on x and y.
 void LimbShape::apply(Block& b) const {
     constexpr std::size_t kSize = Block::kSize;
-    std::array<float, kSize> c{}, s{}, depth{};
+    std::array<float, kSize> c{}, s{}, depth{}, depth_away{};
     float deepest = 0;
+    const auto share = [](float radius, float width) {
+        return std::clamp((radius - 1 + width) / width, 0.0F, 1.0F);
+    };
     for (std::size_t i = 0; i < kSize; ++i) {
         const float radius = std::sqrt(b.x[i] * b.x[i] + b.y[i] * b.y[i]);
         const float inverse = 1 / std::max(radius, 1e-6F);
         c[i] = b.x[i] * inverse;
         s[i] = b.y[i] * inverse;
-        depth[i] = std::clamp((radius - 1 + m_phloem) / m_phloem, 0.0F, 1.0F);
+        depth[i] = m_at_break.depth * share(radius, m_at_break.width);
+        depth_away[i] = m_away.depth * share(radius, m_away.width);
     }
-    for (const float d : depth) deepest = std::max(deepest, d);
+    for (const float d : depth_away) deepest = std::max(deepest, d);
+    const float low = m_lowest, high = m_highest;
     for (std::size_t i = 0; i < kSize; ++i)
         b.scale[i] =
-            (1 - m_taper * b.z[i]) *
+            (1 - m_taper * (b.z[i] - std::clamp(b.z[i], low, high))) *
             (1 + m_outline * gradient_noise(m_outline_seed, 0.9F * c[i] + 17.3F, 0.9F * s[i] + 5.7F));
-    if (deepest <= 0 || m_bark.depth <= 0) return;
+    if (deepest <= 0) return;
     const BarkRelief bark = m_bark;  // a copy, which the writes below cannot alias
-    const float low = m_lowest, high = m_highest;
     std::array<float, kSize> factor{};
     for (std::size_t i = 0; i < kSize; ++i) {
         const float below = b.z[i] < low ? b.z[i] - low : 0.0F;
         const float above = b.z[i] > high ? b.z[i] - high : 0.0F;
+        const float away = smooth_step(0, kFurrowFade, above - below);
+        depth[i] += away * (depth_away[i] - depth[i]);
         factor[i] = bark.factor(c[i], s[i], below + above);
     }
     for (std::size_t i = 0; i < kSize; ++i) b.scale[i] *= 1 + (factor[i] - 1) * depth[i];
@@ -88,9 +149,11 @@ void LimbShape::scale_plan(std::span<Vector3f> points) const {
 /// The axis becomes an arc that leaves z = 0 upright and bends towards +x.
 void LimbShape::bend(std::span<Vector3f> points) const {
     for (Vector3f& p : points) {
-        const float turn = m_curvature * p.z();
-        const float reach = 1 / m_curvature - p.x();
-        p = {1 / m_curvature - reach * std::cos(turn), p.y(), reach * std::sin(turn)};
+        // Nothing is divided by the curvature, which may be as small as can be.
+        const float half = 0.5F * m_curvature * p.z();
+        const float sine = std::sin(half), chord = std::abs(half) > 1e-4F ? p.z() * sine / half : p.z();
+        p = {p.x() * std::cos(2 * half) + chord * sine, p.y(),
+             chord * std::cos(half) - p.x() * std::sin(2 * half)};
     }
 }
 

@@ -160,6 +160,10 @@ std::vector<std::int32_t> triangles_near(const TreeSurface& surface, std::int32_
 
 TreeBranch find_branch(const TreeSurface& surface, SectionTracer& tracer, const Vec3& at) {
     if (!at.allFinite()) throw InputError("the point to break at is not finite; give --at three numbers");
+    constexpr double kFarthest = 1e100;  // the squares of distances beyond are no numbers
+    if (at.cwiseAbs().maxCoeff() > kFarthest)
+        throw InputError(
+            fmt::format("the point {} is far off the tree; give one on the branch's surface", text_of(at)));
     const PickedBody picked = picked_body(surface, at);
     if (picked.place.triangle < 0)
         throw InputError("the tree has no surface; export it as a mesh of polygons");

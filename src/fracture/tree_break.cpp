@@ -30,7 +30,12 @@ FractureParameters for_branch(const FractureParameters& parameters, double diame
     if (result.fracture.end == EndKind::Cut)
         throw InputError(
             "break.end = \"cut\" makes a sawn log, which has no tree; set break.end = \"broken\"");
-    constexpr double kThickest_m = 5;  // the range of branch.diameter_m
+    constexpr double kThinnest_m = 1e-4, kThickest_m = 5;  // the range of branch.diameter_m
+    if (diameter_m < kThinnest_m)
+        throw InputError(fmt::format(
+            "the branch is {:.3g} m thin, if a unit of the tree's file is as long as --unit-m says; "
+            "give a larger one",
+            diameter_m));
     if (diameter_m > kThickest_m)
         throw InputError(fmt::format(
             "the branch is {:.3g} m thick, if the tree's lengths are metres; give the length of its "
@@ -48,6 +53,7 @@ BreakEnds broken_ends(const FractureParameters& parameters) {
     BreakEnds ends;
     BreakWorkspace workspace;
     make_break_ends(parameters, ends, workspace);
+    check_heights(parameters, ends.lowest, ends.highest);
     const CrackParameters& c = parameters.cracks;
     if (c.check || c.large.count + c.medium.count + c.small.count + c.tangential.count > 0)
         open_cracks(ends, parameters);

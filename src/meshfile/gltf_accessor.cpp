@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "meshfile/gltf_source.h"
+#include "meshfile/mesh_file.h"
 
 namespace windfall::meshfile {
 namespace {
@@ -87,9 +88,10 @@ void fill_sparse(const Model& model, const Accessor& accessor, std::size_t width
     const unsigned char* values = range_of(model, sparse.values.bufferView,
                                            static_cast<std::size_t>(sparse.values.byteOffset), count * width);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto at =
-            static_cast<std::size_t>(component(indices + i * index_bytes, sparse.indices.componentType));
-        if (at >= accessor.count) throw std::out_of_range("a sparse accessor reaches beyond its end");
+        const double index = component(indices + i * index_bytes, sparse.indices.componentType);
+        if (!(index >= 0 && index < static_cast<double>(accessor.count)))
+            throw std::out_of_range("a sparse accessor reaches beyond its end");
+        const auto at = static_cast<std::size_t>(index);
         std::memcpy(bytes.data() + at * width, values + i * width, width);
     }
 }
@@ -106,7 +108,9 @@ std::vector<unsigned char> accessor_bytes(const Model& model, int index) {
     const Accessor& accessor = element_of(model.accessors, index, "accessor");
     const std::size_t width =
         component_bytes(accessor.componentType) * static_cast<std::size_t>(component_count(accessor));
-    if (accessor.count > (std::size_t{1} << 31U)) throw std::out_of_range("an accessor is too long");
+    // Without a buffer view nothing but its own word says how long an accessor is.
+    if (accessor.count > kMaxCorners)
+        throw std::out_of_range(fmt::format("an accessor of {} elements is too long", accessor.count));
     std::vector<unsigned char> bytes(accessor.count * width, 0);
     if (accessor.bufferView >= 0 && accessor.count > 0) {
         const auto& view = element_of(model.bufferViews, accessor.bufferView, "buffer view");
@@ -118,6 +122,23 @@ std::vector<unsigned char> accessor_bytes(const Model& model, int index) {
     }
     fill_sparse(model, accessor, width, bytes);
     return bytes;
+}
+
+std::vector<std::uint32_t> accessor_indices(const Model& model, int index, std::size_t count) {
+    const Accessor& accessor = element_of(model.accessors, index, "accessor");
+    // glTF 2.0, 3.7.2.1: numbers without sign.
+    if (accessor.type != TINYGLTF_TYPE_SCALAR ||
+        (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+        throw std::out_of_range("its indices are no whole numbers without sign");
+    std::vector<std::uint32_t> indices;
+    for (const double value : accessor_values(model, index)) {
+        if (!(value >= 0 && value < static_cast<double>(count)))
+            throw std::out_of_range("an index points to no vertex");
+        indices.push_back(static_cast<std::uint32_t>(value));
+    }
+    return indices;
 }
 
 std::vector<double> accessor_values(const Model& model, int index) {

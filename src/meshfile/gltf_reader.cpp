@@ -48,6 +48,20 @@ void load(tinygltf::Model& model, std::span<const std::byte> bytes, const std::s
                         error.empty() ? "damaged" : error));
 }
 
+/// Throws std::out_of_range unless an attribute of this name may have so many numbers a vertex (glTF 2.0,
+/// 3.7.2.1).
+void check_components(const std::string& name, int components) {
+    int least = 1, most = 4;
+    if (name == "POSITION" || name == "NORMAL") least = most = 3;
+    if (name == "TANGENT") least = most = 4;
+    if (name.starts_with("TEXCOORD_")) least = most = 2;
+    if (name.starts_with("COLOR_")) least = 3;
+    if (components < least || components > most)
+        throw std::out_of_range(fmt::format("{} has {} {} a vertex instead of {}", name, components,
+                                            components == 1 ? "number" : "numbers",
+                                            components < least ? least : most));
+}
+
 /// The type and number of components that an attribute of this name has.
 Attribute attribute_named(const std::string& name, int components) {
     Attribute attribute{name, Role::Other, components, {}, false, {}};
@@ -176,16 +190,15 @@ class GltfReader {
     }
 
     void read_primitive(const tinygltf::Primitive& primitive, Group group) {
-        const std::vector<double> positions = accessor_values(m_model, primitive.attributes.at("POSITION"));
+        const std::vector<double> positions = values_of("POSITION", primitive.attributes.at("POSITION"));
         const std::size_t count = positions.size() / 3;
         std::vector<std::int32_t> indices;
-        if (primitive.indices >= 0)
-            for (const double i : accessor_values(m_model, primitive.indices)) {
-                if (i >= static_cast<double>(count)) throw std::out_of_range("an index points to no vertex");
+        if (primitive.indices >= 0) {
+            for (const std::uint32_t i : accessor_indices(m_model, primitive.indices, count))
                 indices.push_back(static_cast<std::int32_t>(i));
-            }
-        else
+        } else {
             for (std::size_t i = 0; i < count; ++i) indices.push_back(static_cast<std::int32_t>(i));
+        }
         const std::vector<std::int32_t> corners = triangles_of(indices, primitive.mode);
         if (corners.size() % 3 != 0) throw std::out_of_range("its indices do not make triangles");
 
@@ -200,10 +213,12 @@ class GltfReader {
             m_mesh.vertex_groups.push_back(static_cast<std::int32_t>(m_mesh.groups.size()));
         }
         read_attributes(primitive, number, first);
-        if (m_mesh.corners.size() + corners.size() > kMaxCorners) fail("the mesh is too large; decimate it");
-        const FaceInfo info{
-            static_cast<std::int32_t>(m_mesh.groups.size()),
-            primitive.material < static_cast<int>(m_model.materials.size()) ? primitive.material : -1, 0};
+        if (std::max(m_mesh.corners.size() + corners.size(), m_mesh.positions.size()) > kMaxCorners)
+            fail("the mesh is too large; decimate it");
+        const bool has_material =
+            primitive.material >= 0 && primitive.material < static_cast<int>(m_model.materials.size());
+        const FaceInfo info{static_cast<std::int32_t>(m_mesh.groups.size()),
+                            has_material ? primitive.material : -1, 0};
         for (std::size_t c = 0; c < corners.size(); ++c) {
             m_mesh.corners.push_back(number[static_cast<std::size_t>(corners[c])]);
             if (c % 3 == 2) {
@@ -214,6 +229,13 @@ class GltfReader {
         m_mesh.groups.push_back(std::move(group));
     }
 
+    std::vector<double> values_of(const std::string& attribute, int accessor) const {
+        if (accessor < 0 || static_cast<std::size_t>(accessor) >= m_model.accessors.size())
+            throw std::out_of_range(fmt::format("there is no accessor {}", accessor));
+        check_components(attribute, component_count(m_model.accessors[static_cast<std::size_t>(accessor)]));
+        return accessor_values(m_model, accessor);
+    }
+
     void read_attributes(const tinygltf::Primitive& primitive, const std::vector<std::int32_t>& number,
                          std::size_t first) {
         for (const auto& [name, accessor] : primitive.attributes) {
@@ -222,7 +244,7 @@ class GltfReader {
                 m_mesh.warnings.push_back(fmt::format("{} is left out: there is no skeleton", name));
                 continue;
             }
-            const std::vector<double> values = accessor_values(m_model, accessor);
+            const std::vector<double> values = values_of(name, accessor);
             const int components = component_count(m_model.accessors[static_cast<std::size_t>(accessor)]);
             auto& all = m_mesh.attributes;
             const std::string& wanted = name;  // clang captures no structured bindings

@@ -19,6 +19,10 @@ struct GltfSource final : Source {
 /// std::out_of_range with a text when the accessor reaches beyond its data.
 std::vector<double> accessor_values(const tinygltf::Model& model, int index);
 
+/// The numbers of vertices in an accessor, each below `count`. Throws std::out_of_range also when they are
+/// fractions, may have signs or point elsewhere.
+std::vector<std::uint32_t> accessor_indices(const tinygltf::Model& model, int index, std::size_t count);
+
 /// The bytes of an accessor's elements without gaps, in its own type, with what is sparse filled in.
 std::vector<unsigned char> accessor_bytes(const tinygltf::Model& model, int index);
 

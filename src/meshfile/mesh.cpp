@@ -54,6 +54,23 @@ void keep_attribute(const Mesh& mesh, const Attribute& attribute, const std::vec
     part.mesh.attributes.push_back(std::move(result));
 }
 
+/// What of the attribute's numbers does not fit the mesh; empty when all does.
+std::string misfit(const Mesh& mesh, const Attribute& attribute) {
+    const auto width = static_cast<std::size_t>(attribute.components);
+    if (attribute.components < 1 || attribute.values.size() % width != 0) return "broken entries";
+    const std::size_t entries = attribute.values.size() / width;
+    if (!attribute.on_corners)
+        return entries == mesh.positions.size()
+                   ? ""
+                   : fmt::format("{} entries for {} vertices", entries, mesh.positions.size());
+    if (attribute.corner_entries.size() != mesh.corners.size())
+        return fmt::format("{} entries for {} corners", attribute.corner_entries.size(), mesh.corners.size());
+    for (const std::int32_t entry : attribute.corner_entries)
+        if (entry < -1 || (entry >= 0 && static_cast<std::size_t>(entry) >= entries))
+            return fmt::format("a corner that points to entry {} of {}", entry, entries);
+    return "";
+}
+
 void mark_changed_groups(const Mesh& mesh, const std::vector<bool>& keep_face, MeshPart& part) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         if (!keep_face[f]) part.mesh.groups[static_cast<std::size_t>(mesh.faces[f].group)].changed = true;
@@ -132,6 +149,14 @@ void check(const Mesh& mesh, const std::string& name) {
             throw InputError(fmt::format(
                 "{}: the position of vertex {} is not a finite number; repair the mesh where it was made",
                 name, v));
+    for (const Attribute& attribute : mesh.attributes)
+        if (const std::string problem = misfit(mesh, attribute); !problem.empty())
+            throw InputError(
+                fmt::format("{}: \"{}\" has {}; export it again", name, attribute.name, problem));
+    for (const FaceColumn& column : mesh.face_columns)
+        if (column.values.size() != mesh.face_count())
+            throw InputError(fmt::format("{}: \"{}\" has {} entries for {} faces; export it again", name,
+                                         column.name, column.values.size(), mesh.face_count()));
 }
 
 }  // namespace windfall::meshfile

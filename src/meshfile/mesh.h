@@ -110,7 +110,7 @@ MeshPart part_of(const Mesh& mesh, const std::vector<bool>& keep_face,
                  const std::vector<std::size_t>& more_corners);
 
 /// Throws InputError, with `name` of the file, when the mesh has no faces, when a corner points to no vertex,
-/// or when a position is not a finite number.
+/// when a position is not a finite number, or when an attribute or column has not got one entry for each.
 void check(const Mesh& mesh, const std::string& name);
 
 }  // namespace windfall::meshfile

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 std::string read_bytes(const fs::path& path) {
     std::error_code failed;
+    if (fs::is_directory(path, failed))
+        throw InputError(fmt::format("{} is a folder; give the path of a file", path.string()));
     if (!fs::is_regular_file(path, failed))
         throw InputError(fmt::format("{}: there is no such file; check the name", path.string()));
     const std::uintmax_t size = fs::file_size(path, failed);

@@ -16,6 +16,7 @@ struct ObjSource final : Source {
     ObjSource() : Source(Format::Obj) {}
     std::filesystem::path folder;  ///< that the textures are relative to
     std::string material_text;
+    std::vector<std::string> other_libraries;  ///< names of materials' files elsewhere, which are not read
 };
 
 /// The text of a file beside the OBJ; empty when there is none.

@@ -8,6 +8,7 @@
 
 #include "meshfile/obj.h"
 #include "meshfile/text_scanner.h"
+#include "meshfile/texture_path.h"
 
 namespace windfall::meshfile {
 namespace {
@@ -25,6 +26,14 @@ class ObjReader {
         auto source = std::make_shared<ObjSource>();
         source->folder = folder;
         for (const std::string& library : m_libraries) {
+            if (!lies_below(library, folder)) {
+                m_mesh.warnings.push_back(fmt::format(
+                    "the materials' file {} is not read: it lies outside of the tree's folder; the "
+                    "new file points to it",
+                    library));
+                source->other_libraries.push_back(library);
+                continue;
+            }
             const std::string text = text_of(library);
             if (text.empty())
                 m_mesh.warnings.push_back(fmt::format("the materials' file {} is not there", library));

@@ -148,6 +148,9 @@ std::vector<OutputFile> encode_obj(std::span<const NamedMesh> meshes, const std:
     Text text;
     put(text, "# Windfall\n");
     if (!materials.empty()) put(text, "mtllib {}\n", material_path.filename().string());
+    if (const auto* source = dynamic_cast<const ObjSource*>(meshes[0].mesh->source.get()))
+        for (const std::string& library : source->other_libraries)
+            put(text, "mtllib {}\n", moved_texture(library, source->folder, path.parent_path()));
     Offsets from;
     for (const NamedMesh& named : meshes) {
         put_vertices(text, named);

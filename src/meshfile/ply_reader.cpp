@@ -117,7 +117,7 @@ std::vector<Attribute> vertex_attributes(const PlyElement& element) {
         for (const Family& family : families()) {
             bool matches = i + family.names.size() <= properties.size();
             for (std::size_t k = 0; k < family.names.size() && matches; ++k)
-                matches = properties[i + k].name == family.names[k];
+                matches = !properties[i + k].is_list && properties[i + k].name == family.names[k];
             if (!matches) continue;
             attribute.role = family.role;
             attribute.components = static_cast<int>(family.names.size());
@@ -133,7 +133,8 @@ std::vector<Attribute> vertex_attributes(const PlyElement& element) {
 
 void read_vertices(const PlyElement& element, PlyNumbers& numbers, Mesh& mesh) {
     for (const char* axis : {"x", "y", "z"})
-        if (element.find(axis) == nullptr) numbers.fail(fmt::format("vertices have no property {}", axis));
+        if (element.find(axis) == nullptr || element.find(axis)->is_list)
+            numbers.fail(fmt::format("vertices have no property {}", axis));
     mesh.attributes = vertex_attributes(element);
     // Where the value of each property goes: to an axis, or to the end of an attribute.
     std::vector<Attribute*> target;
@@ -261,6 +262,8 @@ Mesh read_ply(std::string_view text, const std::string& name) {
         // Every element takes a byte at least: no memory is asked for on the word of a header alone.
         if (element.count > text.size())
             numbers.fail(fmt::format("there cannot be {} of \"{}\"", element.count, element.name));
+        if ((element.name == "vertex" || element.name == "face") && &element != source->find(element.name))
+            numbers.fail(fmt::format("there is a second element \"{}\"", element.name));
         if (element.name == "vertex") {
             read_vertices(element, numbers, mesh);
         } else if (element.name == "face") {

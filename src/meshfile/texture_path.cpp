@@ -14,4 +14,16 @@ std::string moved_texture(const std::string& name, const std::filesystem::path& 
     return moved.empty() ? name : moved.generic_string();
 }
 
+bool lies_below(const std::string& name, const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    if (fs::path(name).is_absolute()) return false;
+    std::error_code failed;
+    const fs::path root = fs::weakly_canonical(fs::absolute(folder), failed);
+    if (failed) return false;
+    const fs::path file = fs::weakly_canonical(root / name, failed);
+    if (failed) return false;
+    const fs::path way = file.lexically_relative(root);
+    return !way.empty() && *way.begin() != "..";
+}
+
 }  // namespace windfall::meshfile

@@ -9,4 +9,8 @@ namespace windfall::meshfile {
 std::string moved_texture(const std::string& name, const std::filesystem::path& from,
                           const std::filesystem::path& to);
 
+/// Whether the file that another file in `folder` names lies in that folder or below it, links followed. A
+/// mesh from elsewhere has no business with other files.
+bool lies_below(const std::string& name, const std::filesystem::path& folder);
+
 }  // namespace windfall::meshfile

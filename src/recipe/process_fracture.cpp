@@ -15,8 +15,17 @@ RunPlan plan_fracture(const Recipe& recipe) {
     result.lines = {{"lattice", fmt::format("{} rings x {} sectors x {} layers", p.branch.rings,
                                             p.branch.sectors, p.branch.layers)},
                     {"vertices", fmt::format("about {}", plan.vertices)}};
-    if (plan.law_height)
-        result.lines.emplace_back("height law", fmt::format("mean height {:.4g} radii", *plan.law_height));
+    const bool is_broken = p.fracture.end == fracture::EndKind::Broken;
+    if (is_broken && p.fracture.height_from == fracture::HeightSource::Species)
+        result.lines.emplace_back(
+            "height", fmt::format("mean {:.4g} radii, by the law of the species", *plan.law_height));
+    else if (is_broken && p.fracture.height_from == fracture::HeightSource::Asked)
+        result.lines.emplace_back("height",
+                                  fmt::format("mean {:.4g} radii, as asked", p.fracture.mean_height));
+    else if (is_broken)
+        result.lines.emplace_back(
+            "height", fmt::format("as the amplitudes make it (by the law of the species: mean {:.4g} radii)",
+                                  *plan.law_height));
     result.lines.emplace_back("frames", fmt::format("{}", plan.frames));
     result.warnings = plan.warnings;
     return result;

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "core/error.h"
+#include "fracture/plan.h"
 #include "meshfile/mesh_file.h"
 #include "take/whole_file.h"
 
@@ -31,6 +32,10 @@ void check_output(const SnapTreeOptions& options, const std::vector<std::string>
     std::error_code ignored;
     for (const fs::path& path :
          meshfile::output_paths(meshfile::format_of(options.tree), options.output, names)) {
+        if (fs::equivalent(path, options.tree, ignored))
+            throw InputError(
+                fmt::format("{} is the tree itself, which is never replaced; choose another name with -o",
+                            path.string()));
         if (fs::is_directory(path, ignored))
             throw InputError(fmt::format("{} is a folder; choose another name with -o", path.string()));
         if (!options.overwrite && fs::exists(path, ignored))
@@ -38,6 +43,14 @@ void check_output(const SnapTreeOptions& options, const std::vector<std::string>
                 fmt::format("{} is there already; add --force to replace it, or choose another name with -o",
                             path.string()));
     }
+}
+
+/// Whether files can be put into the folder, or, where it is still to be made, into the one above it.
+void check_folder(const fs::path& output) {
+    std::error_code ignored;
+    fs::path folder = fs::absolute(output).parent_path();
+    while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+    take::make_writable_folder(folder);
 }
 
 void write(const std::vector<meshfile::NamedMesh>& meshes, const fs::path& output,
@@ -65,7 +78,12 @@ SnappedTree snap_tree(const Recipe& recipe, const SnapTreeOptions& options, cons
     const bool with_piece = recipe.fracture.output.piece != fracture::PiecePlace::Hidden;
     std::vector<std::string> names{"tree"};
     if (with_piece) names.emplace_back("fallen_piece");
-    if (!options.dry_run) check_output(options, names);
+    check_output(options, names);
+    check_folder(options.output);
+
+    fracture::FractureParameters of_tree = recipe.fracture;
+    of_tree.branch.taper = of_tree.branch.bend_deg = 0;  // the tree has its own
+    const std::vector<std::string> warnings = fracture::plan(of_tree).warnings;
 
     context.progress({"reading the tree", 0, 1, -1, ""});
     const meshfile::Mesh mesh = meshfile::read(options.tree);
@@ -73,6 +91,7 @@ SnappedTree snap_tree(const Recipe& recipe, const SnapTreeOptions& options, cons
     const fracture::TreeBreak broken =
         fracture::break_tree(mesh, options.at, recipe.fracture, options.break_options, context);
     SnappedTree result{broken.branch, {}, mesh.warnings};
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     if (options.dry_run) return result;
 
     context.throw_if_cancelled();

@@ -21,15 +21,16 @@ struct SnapTreeOptions {
 struct SnappedTree {
     fracture::TreeBranch branch;               ///< what was found at the point
     std::vector<std::filesystem::path> files;  ///< that were written; none of a dry run
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;         ///< of the file that was read, and of the recipe
 };
 
 /// Whether a file of this name is taken for a tree: it ends in .obj, .ply, .gltf or .glb.
 bool is_tree_file(const std::filesystem::path& path);
 
 /// Writes the tree with the stub, and the fallen piece as an object of its own (unless output.piece is
-/// "hidden"). Throws InputError for a recipe of another process, for files that cannot be read or exist, and
-/// for what break_tree refuses; RunError when a file cannot be written.
+/// "hidden"). Throws InputError for a recipe of another process, for files that cannot be read, exist or are
+/// the tree itself, for a folder that cannot be written into, and for what break_tree refuses; RunError when
+/// a file cannot be written.
 SnappedTree snap_tree(const Recipe& recipe, const SnapTreeOptions& options, const RunContext& context);
 
 }  // namespace windfall::recipe

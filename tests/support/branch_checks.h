@@ -73,16 +73,15 @@ inline std::string complaint_about(const fracture::BranchMesh& mesh) {
     return "";
 }
 
-/// Whether a cell of the broken surface is turned inside out in the plan. The branch must be straight; its
-/// `taper` (as branch.taper) is taken back.
-inline bool has_inverted_cell(const fracture::BreakEnds& ends, double taper = 0) {
+/// Whether a cell of the broken surface is turned inside out in the plan. The branch must be straight.
+inline bool has_inverted_cell(const fracture::BreakEnds& ends) {
     for (int r = 1; r < ends.cells.rings; ++r)
         for (int s = 0; s < ends.cells.sectors; ++s) {
             const auto& v = ends.cells.of(r, s);
             for (std::size_t k = 0; k < 4; ++k) {
                 const auto at = [&](std::size_t i) {
                     const auto& p = ends.stub.positions[static_cast<std::size_t>(v[i & 3U])];
-                    return Eigen::Vector2d(Eigen::Vector2d(p.x(), p.y()) / (1 - taper * p.z()));
+                    return Eigen::Vector2d(p.x(), p.y());
                 };
                 const Eigen::Vector2d a = at(k + 1) - at(k), b = at(k + 3) - at(k);
                 if (!(a.x() * b.y() - a.y() * b.x() > 0)) return true;

@@ -1,15 +1,18 @@
 // The break: topology, fit of the two ends, and the statistics of Yang et al. 2019.
 #include "fracture/break_ends.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "fracture/bark_walls.h"
 #include "fracture/broken_branch.h"
 #include "support/branch_checks.h"
+#include "support/message_of.h"
 #include "support/random_branch.h"
 
 namespace windfall::fracture {
@@ -106,11 +109,20 @@ double worst_corner(const BreakEnds& ends) {
 TEST(BreakEnds, RandomBranchesAreClosedAndFitWithoutOverlap) {
     BreakEnds ends;
     BreakWorkspace workspace;
+    int refused = 0;
     for (std::uint32_t number = 0; number < 120; ++number) {
-        const FractureParameters p = test::random_branch(number, 24, 60);
-        make_break_ends(p, ends, workspace);
-        ASSERT_GT(worst_corner(ends), 0) << "recipe " << number;
-        make_branch(p, ends, workspace);
+        FractureParameters p = resolved(test::random_branch(number, 24, 60));
+        p.output.piece = PiecePlace::Above;
+        p.branch.bend_deg = 0;
+        try {
+            make_break_ends(p, ends, workspace);
+            ASSERT_GT(worst_corner(ends), 0) << "recipe " << number;
+            make_branch(p, ends, workspace);
+        } catch (const InputError&) {
+            ++refused;
+            continue;
+        }
+        ASSERT_FALSE(test::has_inverted_cell(ends)) << "recipe " << number;
         ASSERT_EQ(test::complaint_about(ends.stub), "") << "recipe " << number;
         ASSERT_EQ(test::complaint_about(ends.piece), "") << "recipe " << number;
         ASSERT_GT(test::volume(ends.stub), 0) << "recipe " << number;
@@ -119,10 +131,81 @@ TEST(BreakEnds, RandomBranchesAreClosedAndFitWithoutOverlap) {
             const double radius = 0.07 + 0.17 * k, angle = 2.4 * k + number;
             ASSERT_LT(test::overlap_along_z(ends.stub, ends.piece, radius * std::cos(angle),
                                             radius * std::sin(angle)),
-                      1e-5)
+                      1e-4)
                 << "recipe " << number;
         }
     }
+    EXPECT_LT(refused, 30);
+}
+
+/// Thorns stand up to the last ring but one, where deep furrows of small plates go through them.
+TEST(BreakEnds, ThornsInTheBarkFitUnderDeepFurrows) {
+    FractureParameters p = flat(20, 20);
+    p.tissue = {0, 0.3, 0.3};
+    p.branch.taper = 0;
+    p.branch.bark_relief = 0.3;
+    p.branch.bark_scale = 4.5;
+    p.thorns.phloem_length = 3;
+    p.thorns.phloem_probability = 0.6;
+    p.thorns.skew = 0.1;
+    p.output.piece = PiecePlace::Above;
+    BreakEnds ends;
+    BreakWorkspace workspace;
+    for (p.seed = 1; p.seed <= 4; ++p.seed) {
+        make_branch(p, ends, workspace);
+        EXPECT_FALSE(test::has_inverted_cell(ends)) << "seed " << p.seed;
+        for (int k = 0; k < 300; ++k) {
+            const double radius = 0.6 + 0.4 * std::fmod(0.618 * k, 1.0), angle = 2.4 * k;
+            ASSERT_LT(test::overlap_along_z(ends.stub, ends.piece, radius * std::cos(angle),
+                                            radius * std::sin(angle)),
+                      1e-4)
+                << "seed " << p.seed;
+        }
+    }
+}
+
+TEST(BreakEnds, BendsAsLittleAsCanBe) {
+    BreakEnds straight, bent;
+    BreakWorkspace workspace;
+    FractureParameters p = bundled(20, 40);
+    make_branch(p, straight, workspace);
+    p.branch.bend_deg = 1e-6;
+    make_branch(p, bent, workspace);
+    ASSERT_EQ(straight.stub.positions.size(), bent.stub.positions.size());
+    for (std::size_t v = 0; v < bent.stub.positions.size(); ++v)
+        ASSERT_LT((bent.stub.positions[v] - straight.stub.positions[v]).norm(), 1e-5F);
+    p.branch.bend_deg = 40;
+    p.branch.layers = 2;
+    p.branch.length = 60;
+    EXPECT_THAT(message_of([&] { make_branch(p, bent, workspace); }), testing::HasSubstr("branch.layers"));
+    p.branch.layers = 40;
+    EXPECT_NO_THROW(make_branch(p, bent, workspace));
+    p.low = {-19, 0, 360, 0.5};
+    p.branch.length = p.branch.piece_length = 4;
+    EXPECT_THAT(message_of([&] { make_branch(p, bent, workspace); }), testing::HasSubstr("radii high"));
+}
+
+TEST(BreakEnds, AsksWhatCannotBeScaledAndWhatWouldTurnInsideOut) {
+    BreakEnds ends;
+    BreakWorkspace workspace;
+    FractureParameters p = flat(20, 40);
+    p.fracture.height_from = HeightSource::Asked;
+    p.fracture.mean_height = 3;
+    EXPECT_THAT(message_of([&] { make_break_ends(p, ends, workspace); }), testing::HasSubstr("is flat"));
+    p = bundled(20, 40);
+    p.fracture.height_from = HeightSource::Asked;
+    p.fracture.mean_height = 8;
+    p.branch.taper = 0.1;
+    EXPECT_NO_THROW(check(p)) << "the height is known only once the surface is there";
+    EXPECT_THAT(message_of([&] { make_branch(p, ends, workspace); }), testing::HasSubstr("branch.taper"));
+    p.branch.taper = 0;
+    EXPECT_NO_THROW(make_branch(p, ends, workspace));
+    p.bundles.skew = 10;  // few bundles stand out, very far
+    p.bundles.amplitude = {0, 0, 20};
+    p.bundles.slope = {0, 0, 0};
+    p.fracture.tilt_deg = 0;
+    p.fracture.mean_height = 40;
+    EXPECT_THAT(message_of([&] { make_branch(p, ends, workspace); }), testing::HasSubstr("radii high"));
 }
 
 TEST(BreakEnds, TogetherTheyAreTheWholeBranch) {
@@ -262,6 +345,122 @@ TEST(BreakEnds, RoughnessFollowsLambdaAndBeta) {
     EXPECT_NEAR(roughness_of(p).second / difference2, 1, 1e-3);
 }
 
+/// Mean periodogram of the heights along rays between the radii `from` and `to`; entry k: k periods over that
+/// way.
+std::vector<double> spectrum_along_rays(FractureParameters p, double from, double to) {
+    std::vector<double> power;
+    double rays = 0;
+    for (p.seed = 1; p.seed <= 4; ++p.seed) {
+        const BreakEnds ends = ends_of(p);
+        const int first = static_cast<int>(from * ends.cells.rings),
+                  last = static_cast<int>(to * ends.cells.rings);
+        const auto count = static_cast<std::size_t>(last - first);
+        power.resize(count / 2, 0.0);
+        for (int s = 0; s < ends.cells.sectors; ++s, ++rays) {
+            std::vector<double> z;
+            double mean = 0;
+            for (int r = first; r < last; ++r) {
+                z.push_back(ends.stub.positions[static_cast<std::size_t>(ends.cells.of(r, s)[0])].z());
+                mean += z.back() / static_cast<double>(count);
+            }
+            for (std::size_t k = 1; k < power.size(); ++k) {
+                double real = 0, imaginary = 0;
+                for (std::size_t i = 0; i < count; ++i) {
+                    const double at = static_cast<double>(i) / static_cast<double>(count);
+                    const double window = 1 - std::cos(2 * kPi * at);
+                    real += window * (z[i] - mean) * std::cos(2 * kPi * at * static_cast<double>(k));
+                    imaginary += window * (z[i] - mean) * std::sin(2 * kPi * at * static_cast<double>(k));
+                }
+                power[k] += real * real + imaginary * imaginary;
+            }
+        }
+    }
+    for (double& value : power) value /= rays;
+    return power;
+}
+
+/// Share of the power at more than `k` periods.
+double share_above(const std::vector<double>& power, double k) {
+    double above = 0, all = 0;
+    for (std::size_t i = 1; i < power.size(); ++i) {
+        all += power[i];
+        if (static_cast<double>(i) > k) above += power[i];
+    }
+    return above / all;
+}
+
+/// One octave of Perlin noise has its waves below about one and a half per unit of beta radius, most of them
+/// around 0.7; what lies beyond is cut off. In each tissue by its own beta.
+TEST(BreakEnds, SpectrumOfTheRoughnessEndsAtBeta) {
+    FractureParameters p = flat(240, 24);
+    p.branch.diameter_m = 0.02;
+    p.roughness.octaves = 1;
+    const auto check_tissue = [&](double RoughnessParameters::*lambda, double RoughnessParameters::*beta) {
+        p.roughness.phloem = p.roughness.sapwood = p.roughness.heartwood = 0;
+        p.roughness.*lambda = 0.1;
+        std::vector<double> last;
+        for (const double frequency : {1000.0, 2000.0, 4000.0}) {
+            p.roughness.*beta = frequency;
+            const double periods = frequency * 0.01 * 0.8;  // over 0.8 radii
+            const auto power = spectrum_along_rays(p, 0.15, 0.95);
+            EXPECT_LT(share_above(power, 2 * periods), 0.03) << frequency;
+            EXPECT_NEAR(share_above(power, 0.35 * periods), 0.6, 0.1) << frequency;
+            last = power;
+        }
+        p.roughness.*lambda = 0.2;
+        const auto twice = spectrum_along_rays(p, 0.15, 0.95);
+        for (std::size_t k = 1; k < last.size(); ++k) ASSERT_NEAR(twice[k] / last[k], 4, 0.02) << k;
+    };
+    p.tissue = {0, 1, 0};
+    check_tissue(&RoughnessParameters::heartwood, &RoughnessParameters::heartwood_frequency);
+    p.tissue = {0, 0, 0};
+    check_tissue(&RoughnessParameters::sapwood, &RoughnessParameters::sapwood_frequency);
+    p.tissue = {0, 0, 1};
+    check_tissue(&RoughnessParameters::phloem, &RoughnessParameters::phloem_frequency);
+}
+
+TEST(BreakEnds, SpectrumOfOctavesAndOfWhiteNoise) {
+    FractureParameters p = flat(240, 24);
+    p.branch.diameter_m = 0.02;
+    p.roughness.heartwood = 0.1;
+    p.roughness.heartwood_frequency = 1000;  // 8 waves over 0.8 radii
+    p.roughness.octaves = 1;
+    const auto one = spectrum_along_rays(p, 0.15, 0.95);
+    p.roughness.octaves = 3;
+    const auto three = spectrum_along_rays(p, 0.15, 0.95);
+    // Each octave has twice the frequency and a quarter of the power: 1/16 of it beyond 4 x 0.35 x 8.
+    EXPECT_GT(share_above(three, 16), 4 * share_above(one, 16));
+    EXPECT_LT(share_above(three, 64), 0.03);
+    p.roughness.octaves = 0;
+    p.roughness.white_octaves = 1;
+    const auto white = spectrum_along_rays(p, 0.15, 0.95);
+    // As much in each half of the band.
+    EXPECT_NEAR(share_above(white, 0.5 * static_cast<double>(white.size())), 0.5, 0.05);
+}
+
+/// With bundles each of the finest ones is a particle.
+TEST(BreakEnds, ThornCountsOfBundlesFollowTheirProbability) {
+    FractureParameters p = flat(60, 180);
+    p.bundles.radial = {0.1};
+    p.bundles.angular = {0.1};
+    p.bundles.amplitude = {0.05};
+    p.bundles.slope = {0};
+    p.bundles.warp = 0;
+    double stub = 0, piece = 0, sites = 0;
+    for (p.seed = 1; p.seed <= 12; ++p.seed) {
+        p.thorns.heartwood_length = 0.2;
+        p.thorns.heartwood_probability = 1;
+        sites += ends_of(p).stub_thorns;  // all of them
+        p.thorns.heartwood_probability = 0.2;
+        const BreakEnds ends = ends_of(p);
+        stub += ends.stub_thorns;
+        piece += ends.piece_thorns;
+    }
+    EXPECT_GT(sites, 12 * 200);
+    EXPECT_NEAR(stub, 0.2 * sites, 4 * std::sqrt(sites * 0.2 * 0.8));
+    EXPECT_NEAR(piece, 0.16 * sites, 4 * std::sqrt(sites * 0.16 * 0.84));
+}
+
 TEST(BreakEnds, MeanHeightIsTheAskedOne) {
     for (const double asked : {0.5, 3.0, 6.68}) {
         FractureParameters p = bundled(60, 120);
@@ -313,6 +512,32 @@ TEST(BreakEnds, ASliderDeformsTheBreakInsteadOfReplacingIt) {
     EXPECT_GT(correlated([](auto& q) { q.roughness.heartwood *= 2; }), 0.99);
 }
 
+/// Each particle keeps its number when thorns and strands part others from their neighbours.
+TEST(BreakEnds, WhiteNoiseStaysWithItsParticle) {
+    FractureParameters p = flat(40, 120);
+    p.roughness.octaves = 0;
+    p.roughness.heartwood = 0.3;
+    p.roughness.white_octaves = 4;
+    const auto before = heights_at_places(ends_of(p));
+    EXPECT_GT(*std::max_element(before.begin(), before.end()), 0.1);
+    const auto correlated = [&](auto change) {
+        FractureParameters q = p;
+        change(q);
+        return correlation(before, heights_at_places(ends_of(q)));
+    };
+    EXPECT_GT(correlated([](auto& q) { q.fringe.strands = 100, q.fringe.strand_length = 0.01; }), 0.999);
+    EXPECT_GT(
+        correlated([](auto& q) { q.thorns.heartwood_length = 0.01, q.thorns.heartwood_probability = 0.1; }),
+        0.999);
+    EXPECT_GT(correlated([](auto& q) {
+                  q.bundles.radial = q.bundles.angular = {0.2};
+                  q.bundles.amplitude = q.bundles.slope = {1e-3};
+                  q.bundles.warp = 0.1;
+              }),
+              0.99);
+    EXPECT_GT(correlated([](auto& q) { q.roughness.heartwood *= 2; }), 0.999);
+}
+
 TEST(BreakEnds, ThornsStayWhereTheyAreWhenTheirLengthChanges) {
     FractureParameters p = flat(30, 60);
     p.thorns.heartwood_length = 0.5;
@@ -328,9 +553,11 @@ TEST(BreakEnds, ThornsStayWhereTheyAreWhenTheirLengthChanges) {
 }
 
 TEST(BreakEnds, CoarseAndFineLatticesShowTheSameBreak) {
-    const auto coarse = heights_at_places(ends_of(bundled(40, 120)));
     const auto fine = heights_at_places(ends_of(bundled(200, 400)));
-    EXPECT_GT(correlation(coarse, fine), 0.75);
+    EXPECT_GT(correlation(heights_at_places(ends_of(bundled(40, 120))), fine), 0.75);
+    // The paper's own: 40 x 40 against 200 x 200.
+    const auto paper_fine = heights_at_places(ends_of(bundled(200, 200)));
+    EXPECT_GT(correlation(heights_at_places(ends_of(bundled(40, 40))), paper_fine), 0.6);
 }
 
 }  // namespace

@@ -34,6 +34,25 @@ FractureParameters oak_log(std::int64_t rings, std::int64_t sectors) {
     return p;
 }
 
+TEST(CrackedSection, ClosesCracksAsTheLastResort) {
+    const FractureParameters p = oak_log(40, 120);
+    const CrackGrid grid = crack_grid(p);
+    CrackedSection section(p, grid, draw_cracks(p, crack_room(grid)), 1);
+    const CrackCount before = section.count();
+    std::vector<CrackedSection::Cell> all;
+    for (int r = 0; r < grid.rings; ++r)
+        for (int s = 0; s < grid.sectors; ++s) all.push_back({r, s});
+    EXPECT_TRUE(section.close_around(all));
+    EXPECT_EQ(section.count().opened, 0);
+    EXPECT_EQ(section.count().narrowed, 0);
+    EXPECT_EQ(section.count().dropped, before.dropped + before.opened);
+    for (const CrackedSection::Cell& cell : all) {
+        const CrackShift shift = section.shift(cell.ring, cell.sector, 0, CrackSide::Left);
+        ASSERT_TRUE(shift.angle == 0 && shift.radius == 0);
+    }
+    EXPECT_FALSE(section.close_around(all)) << "there is none left";
+}
+
 TEST(CrackedLog, RandomLogsAreClosedManifoldAndOriented) {
     for (std::uint32_t number = 0; number < 80; ++number) {
         FractureParameters p = test::random_branch(number, 30, 70);

@@ -109,6 +109,8 @@ TEST(FractureParameters, RangesAreThoseOfThePaper) {
         return fracture_parameters().find(key)->info.problem_with(ParameterValue(value));
     };
     EXPECT_NE(problem("branch.diameter_m", 0), "") << "a branch must have some thickness";
+    EXPECT_EQ(problem("branch.diameter_m", 1e-4), "");
+    EXPECT_NE(problem("branch.diameter_m", 9e-5), "");
     EXPECT_EQ(problem("branch.diameter_m", 5), "");
     EXPECT_NE(problem("branch.diameter_m", 5.1), "");
     EXPECT_EQ(problem("break.tilt_deg", 0), "");

@@ -17,8 +17,10 @@ namespace windfall::meshfile {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class MeshFile : public ::testing::Test {
   protected:
@@ -266,6 +268,148 @@ TEST_F(GltfFile, WhatCannotBeKeptIsRefusedWithTheRemedy) {
     EXPECT_THAT(error([](nlohmann::json& j) { j["nodes"][0]["children"] = {0}; }),
                 HasSubstr("do not form a tree"));
     EXPECT_THAT(error([](nlohmann::json& j) { j["nodes"][0].erase("mesh"); }), HasSubstr("no faces"));
+}
+
+/// The first primitive's accessor of this attribute.
+nlohmann::json& accessor_of(nlohmann::json& json, const std::string& attribute) {
+    return json["accessors"][json["meshes"][0]["primitives"][0]["attributes"][attribute].get<std::size_t>()];
+}
+
+TEST_F(GltfFile, IndicesAreWholeNumbersOfVertices) {
+    const auto error = [&](const std::vector<float>& numbers, int type) {
+        return message_of([&] {
+            changed([&](nlohmann::json& j) {
+                // Their bytes stand in the positions; only the type says what they are.
+                const std::size_t positions = j["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+                nlohmann::json accessor = j["accessors"][positions];
+                std::string uri = "data:application/octet-stream;base64,";
+                std::vector<unsigned char> bytes(4 * numbers.size());
+                std::memcpy(bytes.data(), numbers.data(), bytes.size());
+                static constexpr const char* kDigits =
+                    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+                for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
+                    const unsigned three = bytes[i] << 16U | bytes[i + 1] << 8U | bytes[i + 2];
+                    for (const unsigned shift : {18U, 12U, 6U, 0U}) uri += kDigits[three >> shift & 63U];
+                }
+                j["buffers"].push_back({{"uri", uri}, {"byteLength", bytes.size()}});
+                j["bufferViews"].push_back(
+                    {{"buffer", j["buffers"].size() - 1}, {"byteLength", bytes.size()}});
+                j["accessors"].push_back({{"bufferView", j["bufferViews"].size() - 1},
+                                          {"componentType", type},
+                                          {"count", numbers.size()},
+                                          {"type", "SCALAR"}});
+                j["meshes"][0]["primitives"][0]["indices"] = j["accessors"].size() - 1;
+            });
+        });
+    };
+    EXPECT_THAT(error({0, 1, 2}, 5126), HasSubstr("whole numbers"));
+    EXPECT_THAT(error({-1e9F, std::numeric_limits<float>::quiet_NaN(), -2}, 5126),
+                HasSubstr("whole numbers"));
+    EXPECT_THAT(error({-1, -1, -1}, 5122), HasSubstr("whole numbers"));
+    EXPECT_THAT(error({-1, -1, -1}, 5125), HasSubstr("points to no vertex"));
+    EXPECT_EQ(error({0, 0, 0}, 5125), "no error");
+}
+
+TEST_F(GltfFile, AttributesHaveTheWidthOfTheirKind) {
+    const auto error = [&](const char* attribute, const char* type) {
+        return message_of(
+            [&] { changed([&](nlohmann::json& j) { accessor_of(j, attribute)["type"] = type; }); });
+    };
+    EXPECT_THAT(error("POSITION", "SCALAR"), HasSubstr("POSITION has 1 number a vertex instead of 3"));
+    EXPECT_THAT(error("NORMAL", "SCALAR"), HasSubstr("NORMAL has 1 number"));
+    EXPECT_THAT(error("TEXCOORD_0", "SCALAR"), HasSubstr("TEXCOORD_0 has 1 number"));
+    EXPECT_THAT(message_of([&] {
+                    changed([&](nlohmann::json& j) {
+                        auto& attributes = j["meshes"][0]["primitives"][0]["attributes"];
+                        attributes["TANGENT"] = attributes["POSITION"];
+                    });
+                }),
+                HasSubstr("TANGENT has 3 numbers a vertex instead of 4"));
+}
+
+TEST_F(GltfFile, NoMemoryOnTheWordOfACount) {
+    EXPECT_THAT(message_of([&] {
+                    changed([&](nlohmann::json& j) {
+                        accessor_of(j, "POSITION").erase("bufferView");
+                        accessor_of(j, "POSITION")["count"] = std::int64_t{1} << 31U;
+                    });
+                }),
+                HasSubstr("2147483648 elements is too long"));
+}
+
+TEST_F(MeshFile, PlyFamiliesAreOfSingleNumbers) {
+    const std::string body =
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1 2 1 9 3\n1 0 0 1 2 1 9 3\n0 1 0 1 2 1 9 3\n3 0 1 2\n";
+    const Mesh mesh =
+        read(file("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float nx\nproperty float ny\nproperty list uchar float nz\n"
+                  "property float last\n" +
+                      body));
+    ASSERT_EQ(mesh.attributes.size(), 3U);
+    EXPECT_EQ(mesh.attributes[0].components, 1);
+    EXPECT_THAT(mesh.attributes[2].values, ElementsAre(3, 3, 3));
+    EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("\"nz\"")));
+    EXPECT_THAT(error_of("b.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 3\nproperty list uchar float x\n"
+                         "property float y\nproperty float z\n" +
+                             body),
+                HasSubstr("no property x"));
+}
+
+TEST_F(MeshFile, PlyHasVerticesAndFacesOnce) {
+    const std::string vertices =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float age\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    const std::string three = "0 0 0 5\n1 0 0 6\n0 1 0 7\n", one = "3 0 1 2\n";
+    const auto error = [&](const std::string& elements, const std::string& body) {
+        return error_of("a.ply", "ply\nformat ascii 1.0\n" + elements + "end_header\n" + body);
+    };
+    EXPECT_EQ(error(vertices + faces, three + one), "no error");
+    EXPECT_THAT(error(vertices + vertices + faces, three + three + one), HasSubstr("second element"));
+    EXPECT_THAT(error(vertices + faces + faces, three + one + one), HasSubstr("second element"));
+}
+
+TEST_F(MeshFile, CheckComparesAttributesWithTheMesh) {
+    const Mesh good = read(file("a.obj", kObj));
+    const auto complaint = [&](const auto& change) {
+        Mesh mesh = good;
+        change(mesh);
+        return message_of([&] { check(mesh, "tree"); });
+    };
+    EXPECT_EQ(complaint([](Mesh&) {}), "no error");
+    EXPECT_THAT(complaint([](Mesh& m) {
+                    m.attributes.push_back({"age", Role::Other, 2, std::vector<double>(8), false, {}});
+                }),
+                HasSubstr("4 entries for 5 vertices"));
+    EXPECT_THAT(complaint([](Mesh& m) { m.attributes[0].corner_entries.pop_back(); }),
+                HasSubstr("6 entries for 7 corners"));
+    EXPECT_THAT(complaint([](Mesh& m) { m.attributes[0].corner_entries[2] = 3; }), HasSubstr("entry 3 of 3"));
+    EXPECT_THAT(complaint([](Mesh& m) {
+                    m.face_columns.push_back({"kind", {1}});
+                }),
+                HasSubstr("1 entries for 2 faces"));
+}
+
+TEST_F(MeshFile, MaterialsOutsideOfTheFolderStayAReference) {
+    fs::create_directory(path("in"));
+    fs::create_directory(path("in/deep"));
+    file("secret.mtl", "newmtl secret\n");
+    file("in/deep/wood.mtl", "newmtl dark bark\n");
+    const std::string outside = path("secret.mtl").string();
+    const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl secret\nf 1 2 3\n";
+    for (const std::string& library : {std::string("../secret.mtl"), outside}) {
+        const Mesh mesh = read(file("in/a.obj", "mtllib deep/wood.mtl\nmtllib " + library + "\n" + faces));
+        EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("outside of the tree's folder")));
+        write({{"tree", &mesh}}, "in/deep/b.obj");
+        EXPECT_THAT(text("in/deep/b.mtl"), AllOf(HasSubstr("dark bark"), Not(HasSubstr("secret"))));
+        EXPECT_THAT(text("in/deep/b.obj"),
+                    HasSubstr("mtllib " + (library == outside ? outside : "../../secret.mtl") + "\n"));
+    }
+    fs::create_symlink("../secret.mtl", path("in/link.mtl"));
+    EXPECT_THAT(read(file("in/a.obj", "mtllib link.mtl\n" + faces)).warnings,
+                ElementsAre(HasSubstr("outside of the tree's folder")));
 }
 
 TEST_F(MeshFile, BadFilesAreToldWithNameLineAndRemedy) {

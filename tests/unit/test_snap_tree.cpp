@@ -17,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::Vec2;
 using geometry::Vec3;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class SnapTree : public ::testing::Test {
   protected:
@@ -91,7 +93,49 @@ TEST_F(SnapTree, RefusesOtherFormatsAndProcesses) {
     EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("ends in .obj"));
     EXPECT_THAT(message_of([&] { snap_tree(Recipe{}, options, {}); }), HasSubstr("drying"));
     options.dry_run = true;
+    EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("ends in .obj"));
+    options.output.replace_extension(".obj");
     EXPECT_TRUE(snap_tree(m_recipe, options, {}).files.empty());
+    EXPECT_FALSE(fs::exists(options.output));
+}
+
+TEST_F(SnapTree, NeverReplacesTheTreeItself) {
+    SnapTreeOptions options = options_for(tube(".obj"));
+    options.overwrite = true;
+    options.output = options.tree.parent_path() / "." / options.tree.filename();
+    EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("the tree itself"));
+}
+
+TEST_F(SnapTree, TellsBeforeTheWorkThatNothingCanBeWritten) {
+    SnapTreeOptions options = options_for(tube(".obj"));
+    options.at = {100, 100, 100};  // would be told next
+    options.output = options.tree / "under_a_file" / "broken.obj";
+    for (const bool dry_run : {false, true}) {
+        options.dry_run = dry_run;
+        EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("is a file"));
+    }
+    options.output = m_folder.path() / "new" / "broken.obj";
+    EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), Not(HasSubstr("folder")));
+    EXPECT_FALSE(fs::exists(m_folder.path() / "new"));
+}
+
+TEST_F(SnapTree, TellsOfPointsFarAwayAndOfFolders) {
+    SnapTreeOptions options = options_for(tube(".obj"));
+    options.at = {1e300, 0, 0};
+    EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("far off the tree"));
+    options.tree = m_folder.path() / "folder.obj";
+    fs::create_directory(options.tree);
+    EXPECT_THAT(message_of([&] { snap_tree(m_recipe, options, {}); }), HasSubstr("is a folder"));
+}
+
+TEST_F(SnapTree, WarnsAsForABranchWithoutATree) {
+    m_recipe.fracture.bundles.radial = {0.03};
+    m_recipe.fracture.bundles.angular = {0.035};
+    m_recipe.fracture.bundles.amplitude = {0.1};
+    m_recipe.fracture.bundles.slope = {1};
+    SnapTreeOptions options = options_for(tube(".obj"));
+    options.dry_run = true;
+    EXPECT_THAT(snap_tree(m_recipe, options, {}).warnings, Contains(HasSubstr("bundles.angular")));
 }
 
 }  // namespace
