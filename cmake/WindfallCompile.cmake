@@ -25,10 +25,10 @@ function(windfall_library name)
   windfall_compile_options(${name})
 endfunction()
 
-# For what runs once a command: a third of the time to compile.
-function(windfall_compile_quickly name)
+# Lower optimisation than the build type's -O3, for what has no hot loops: it halves the time to compile.
+function(windfall_optimise name level)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${name} PRIVATE -O1)
+    target_compile_options(${name} PRIVATE ${level})
   endif()
 endfunction()
 
