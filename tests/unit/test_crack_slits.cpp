@@ -70,10 +70,16 @@ TEST(CrackSlits, ThornsStayInTheirHoles) {
 TEST(CrackSlits, RandomBreaksStayClosedAndFitWithoutOverlap) {
     BreakEnds ends;
     BreakWorkspace workspace;
+    int refused = 0;
     for (std::uint32_t number = 0; number < 60; ++number) {
         FractureParameters p = test::random_branch(number, 24, 60);
         test::add_random_cracks(number, p);
-        make_unplaced(p, ends, workspace);
+        try {
+            make_unplaced(p, ends, workspace);
+        } catch (const InputError&) {
+            ++refused;  // a break too high for its taper or bend
+            continue;
+        }
         compute_normals(ends.stub);
         compute_normals(ends.piece);
         ASSERT_EQ(test::complaint_about(ends.stub), "") << "recipe " << number;
@@ -88,6 +94,7 @@ TEST(CrackSlits, RandomBreaksStayClosedAndFitWithoutOverlap) {
                 << "recipe " << number;
         }
     }
+    EXPECT_LT(refused, 30);
 }
 
 TEST(CrackSlits, BothEndsMoveAlikeAndKeepTheirRim) {
