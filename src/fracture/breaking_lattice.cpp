@@ -84,7 +84,7 @@ void set_clock(BreakingLattice& lattice, const FractureParameters& parameters, s
     lattice.gravity = kGravity / radius_m;
     const double length =
         std::max(lattice.levels.back() - lattice.heights[0], lattice.heights[0] - lattice.levels.front());
-    constexpr double kStiffness = 20;  // the section bears several times the piece's weight held sideways
+    constexpr double kStiffness = 18;  // the section bears several times the piece's weight held sideways
     const double wanted = kStiffness * std::clamp(length, 4.0, 30.0) * std::sqrt(lattice.gravity);
     const double seconds = parameters.output.seconds;
     const double steps = std::ceil(seconds * wanted / lattice.spacing);

@@ -67,14 +67,14 @@ double BranchBreaking::weakening(double time) const {
 
 void BranchBreaking::damp() {
     // Bending waves die away within two swings or so; the motion of the piece as a whole stays.
-    const double share = 1 - std::exp(-kSlowSteps * m_lattice.step * m_lattice.wave_speed / 150);
+    const double share = 1 - std::exp(-kSlowSteps * m_lattice.step * m_lattice.wave_speed / 100);
     damp_relative(m_particles, m_lattice.piece.first, m_lattice.piece.past(), share);
     for (std::size_t i = m_lattice.stub.first; i < m_lattice.stub.past(); ++i)
         m_particles.velocity[i] *= 1 - share;
     if (m_ground.touching() == 0) return;
     // Bark and earth swallow most of a bounce, and what lies on them soon stops rolling.
     const double pace = std::sqrt(m_lattice.gravity) * kSlowSteps * m_lattice.step;
-    const double rolling = std::exp(-0.8 * pace), bouncing = std::exp(-kBounceLoss * pace);
+    const double rolling = std::exp(-1.6 * pace), bouncing = std::exp(-kBounceLoss * pace);
     for (std::size_t i = m_lattice.piece.first; i < m_lattice.piece.past(); ++i) {
         m_particles.velocity[i] *= rolling;
         if (m_particles.velocity[i].z() > 0) m_particles.velocity[i].z() *= bouncing;

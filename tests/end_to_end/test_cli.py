@@ -57,7 +57,7 @@ class Texts(CommandLine):
 
     def test_schema_is_json_and_complete(self):
         processes = json.loads(self.succeed("schema", "--json"))["processes"]
-        self.assertEqual(list(processes), ["drying", "fracture"])
+        self.assertEqual(list(processes), ["decay", "drying", "fracture"])
         for name, process in processes.items():
             keys = [parameter["key"] for parameter in process["parameters"]]
             self.assertEqual(len(keys), len(set(keys)))

@@ -87,7 +87,7 @@ class Runs(CommandLine):
 
     def test_dry_run_prints_the_plan_and_writes_nothing(self):
         text = self.succeed("snap", "ailanthus", "--dry-run", "--seed", 7)
-        for part in ("96 rings x 320 sectors", "vertices", "mean height 0.7448", "frames       1",
+        for part in ("96 rings x 320 sectors", "vertices", "mean 0.7448 radii", "frames       1",
                      "ailanthus-seed7.take"):
             self.assertIn(part, text)
         self.assertEqual(self.listing(), [])
