@@ -51,6 +51,8 @@ class Body {
   public:
     /// Throws InputError for settings out of range and for surfaces whose flesh would be inside out.
     Body(const SurfaceFunction& surface, const BodySettings& settings, const InteriorFunction& interior = {});
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
     Body(Body&&) noexcept;
     Body& operator=(Body&&) noexcept;
     ~Body();

@@ -138,7 +138,7 @@ int crossing_edges(const SurfacePoints& points, const std::vector<geometry::Face
     return static_cast<int>(parallel_sum(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
         double count = 0;
         for (std::size_t e = begin; e < end; ++e) {
-            const auto [p, q] = edges[e];
+            const std::int32_t p = edges[e][0], q = edges[e][1];  // clang 14 captures no bindings
             bool crossed = false;
             grid.near_box(points[p].cwiseMin(points[q]), points[p].cwiseMax(points[q]), [&](std::int32_t t) {
                 if (crossed) return;

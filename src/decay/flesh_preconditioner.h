@@ -14,6 +14,8 @@ class FleshPreconditioner {
   public:
     /// Orders the unknowns and finds the pattern of the factor.
     explicit FleshPreconditioner(const FleshMesh& mesh);
+    FleshPreconditioner(const FleshPreconditioner&) = delete;
+    FleshPreconditioner& operator=(const FleshPreconditioner&) = delete;
     FleshPreconditioner(FleshPreconditioner&&) noexcept;
     FleshPreconditioner& operator=(FleshPreconditioner&&) noexcept;
     ~FleshPreconditioner();

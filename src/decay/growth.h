@@ -75,7 +75,7 @@ class Growth {
 
   private:
     struct State;
-    std::unique_ptr<State> m;
+    std::unique_ptr<State> m_state;
 };
 
 }  // namespace windfall::decay

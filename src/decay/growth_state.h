@@ -32,6 +32,7 @@ struct Growth::State {
     State(const geometry::CubeAtlas& atlas, std::span<const geometry::Vec3> texel_positions_m,
           const std::vector<Organism>& chosen, const GrowthSettings& chosen_settings,
           std::uint64_t chosen_seed, const GrowthFields& fields);
+    ~State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 

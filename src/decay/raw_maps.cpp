@@ -41,8 +41,10 @@ take::FrameMap map_of(const Texture& texture, const std::string& mesh, const std
     map.width = map.height = texture.size;
     map.values.resize(values.size());
     parallel_blocks(values.size(), kTexelBlock, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            map.values[i] = static_cast<std::uint16_t>(std::clamp(values[i], 0.0F, 1.0F) * 65535 + 0.5F);
+        for (std::size_t i = begin; i < end; ++i) {
+            const float rounded = std::clamp(values[i], 0.0F, 1.0F) * 65535 + 0.5F;
+            map.values[i] = static_cast<std::uint16_t>(rounded);
+        }
     });
     return map;
 }

@@ -129,7 +129,7 @@ std::vector<SkinStarts> RottingPile::starting_places(const Specimen& specimen) c
     for (std::size_t f = 0; f < bodies.size(); ++f) {
         for (std::int64_t k = 0; k < wanted.random; ++k)
             starts[f].wounds.push_back(random_direction(m_parameters.seed, f, k));
-        if (wanted.stem) starts[f].wounds.push_back(geometry::Vec3::UnitZ());
+        if (wanted.stem) starts[f].wounds.emplace_back(geometry::Vec3::UnitZ());
     }
     for (std::size_t k = 0; k + 2 < wanted.wounds_m.size(); k += 3) {
         const geometry::Vec3 asked(wanted.wounds_m[k], wanted.wounds_m[k + 1], wanted.wounds_m[k + 2]);

@@ -13,7 +13,7 @@ Specimen specimen_of(const FruitParameters& fruit) {
     return {fruit_surface(fruit.kind, fruit.mass_kg), {}, {}, nullptr};
 }
 
-Specimen specimen_of(std::shared_ptr<const ArtistFruit> artist) {
+Specimen specimen_of(const std::shared_ptr<const ArtistFruit>& artist) {
     return {
         [artist](const geometry::Vec3& d) { return artist->map.point(d); },
         [artist](const geometry::Vec3& d, double fraction) { return artist->interior.point(d, fraction); },

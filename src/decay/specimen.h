@@ -36,7 +36,7 @@ struct Specimen {
 /// Throws std::logic_error for kind Mesh.
 Specimen specimen_of(const FruitParameters& fruit);
 /// The same of an artist's mesh.
-Specimen specimen_of(std::shared_ptr<const ArtistFruit> artist);
+Specimen specimen_of(const std::shared_ptr<const ArtistFruit>& artist);
 
 /// Throws InputError for a wound (start.wounds_m) that is off a single fruit. Of a pile it is known only when
 /// it has settled.

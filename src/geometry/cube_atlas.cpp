@@ -88,10 +88,11 @@ std::size_t CubeAtlas::texel_at(const Vec3& direction) const {
 }
 
 Vec3 CubeAtlas::texel_direction(std::size_t texel) const {
-    const int chart = m_chart[texel];
+    const auto chart = static_cast<int>(m_chart[texel]);
     const auto [x0, y0] = chart_origin(chart);
-    const double x = static_cast<double>(texel % m_side) + 0.5 - x0;
-    const double y = static_cast<double>(texel / m_side) + 0.5 - y0;
+    const std::size_t column = texel % m_side, row = texel / m_side;
+    const double x = static_cast<double>(column) + 0.5 - x0;
+    const double y = static_cast<double>(row) + 0.5 - y0;
     return direction(chart, x / m_width, 1 - y / m_height);
 }
 

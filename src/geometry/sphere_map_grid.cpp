@@ -21,7 +21,7 @@ void clip(std::vector<Vec3>& polygon, const Vec3& plane) {
         const double height_a = plane.dot(a), height_b = plane.dot(b);
         if (height_a >= 0) inside.push_back(a);
         if ((height_a >= 0) != (height_b >= 0))
-            inside.push_back((height_a * b - height_b * a) / (height_a - height_b));
+            inside.emplace_back((height_a * b - height_b * a) / (height_a - height_b));
     }
     polygon = std::move(inside);
 }

@@ -31,6 +31,7 @@ struct SurfaceEdge {
 class SurfaceEdges {
   public:
     explicit SurfaceEdges(const std::vector<Triangle>& triangles);
+    ~SurfaceEdges() = default;
     SurfaceEdges(const SurfaceEdges&) = delete;
     SurfaceEdges& operator=(const SurfaceEdges&) = delete;
 
