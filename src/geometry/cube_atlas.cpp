@@ -88,7 +88,7 @@ std::size_t CubeAtlas::texel_at(const Vec3& direction) const {
 }
 
 Vec3 CubeAtlas::texel_direction(std::size_t texel) const {
-    const auto chart = static_cast<int>(m_chart[texel]);
+    const int chart = chart_of(texel);
     const auto [x0, y0] = chart_origin(chart);
     const std::size_t column = texel % m_side, row = texel / m_side;
     const double x = static_cast<double>(column) + 0.5 - x0;

@@ -84,7 +84,7 @@ struct Skin {
 Skin skin_of(const std::vector<Eigen::Vector3f>& positions, const std::vector<Quad>& quads) {
     Skin skin;
     skin.x.reserve(positions.size());
-    for (const auto& p : positions) skin.x.push_back(p.cast<double>());
+    for (const auto& p : positions) skin.x.emplace_back(p.cast<double>());
     skin.normals = vertex_normals(skin.x, {quads.begin(), quads.end()});
     return skin;
 }

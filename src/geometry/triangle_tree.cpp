@@ -48,7 +48,7 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector
     std::vector<Vec3> centres;
     centres.reserve(triangles.size());
     for (const Triangle& t : triangles)
-        centres.push_back((positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3);
+        centres.emplace_back((positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3);
     m_nodes.reserve(triangles.size());
     build(0, static_cast<std::int32_t>(triangles.size()), centres);
     m_corners.reserve(triangles.size());

@@ -140,7 +140,8 @@ void find_overlaps(const SurfaceMesh& mesh, const TriangleSurface& surface, std:
         if (texels.size() <= kSmallestOverlap) continue;
         UvDefect defect{UvDefectKind::Overlap, Vec2::Zero(), {}, {}};
         for (const std::int32_t texel : texels) {
-            defect.place += Vec2((texel % kSize + 0.5) / kSize, 1 - (texel / kSize + 0.5) / kSize);
+            const std::int32_t column = texel % kSize, row = texel / kSize;
+            defect.place += Vec2((column + 0.5) / kSize, 1 - (row + 0.5) / kSize);
             defect.faces.push_back(surface.origin[first[texel]].face);
             defect.faces.push_back(surface.origin[second[texel]].face);
         }

@@ -161,7 +161,7 @@ TEST(FleshEnergy, SinglePrecisionAgreesWithItsTwin) {
     energy.set_material(modulus, theta);
     const auto x = disturbed(mesh, 1e-3);
     std::vector<Eigen::Vector4f> single;
-    for (const auto& p : x) single.push_back(p.cast<float>());
+    for (const auto& p : x) single.emplace_back(p.cast<float>());
     std::vector<Twin::Vec> expected;
     std::vector<Eigen::Vector4f> gradient;
     const double expected_energy = twin.evaluate(x, expected, 20);

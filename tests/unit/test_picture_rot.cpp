@@ -14,7 +14,7 @@
 namespace windfall::picture {
 namespace {
 
-take::FrameMap plain_map(const std::string& name, std::vector<double> value) {
+take::FrameMap plain_map(const std::string& name, const std::vector<double>& value) {
     take::FrameMap map;
     map.name = name;
     map.mesh = "skin";

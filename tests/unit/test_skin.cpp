@@ -28,8 +28,8 @@ struct Ball {
           directions(geometry::brick_directions(brick, Vec3::Ones())),
           faces(brick.quads.begin(), brick.quads.end()) {
         for (const Vec3& d : directions) {
-            points.push_back(centre + radius_m * d);
-            single.push_back(points.back().cast<float>());
+            points.emplace_back(centre + radius_m * d);
+            single.emplace_back(points.back().cast<float>());
         }
     }
     std::vector<Eigen::Vector3f> scaled(float by) const {

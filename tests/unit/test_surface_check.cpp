@@ -38,7 +38,7 @@ void remove_face(SurfaceMesh& mesh, std::size_t f) {
 
 void append(SurfaceMesh& mesh, const SurfaceMesh& other, const Vec3& shift) {
     const auto first = static_cast<std::int32_t>(mesh.positions.size());
-    for (const Vec3& p : other.positions) mesh.positions.push_back(p + shift);
+    for (const Vec3& p : other.positions) mesh.positions.emplace_back(p + shift);
     for (Face face : other.faces) {
         for (int c = 0; c < corner_count(face); ++c) face[c] += first;
         mesh.faces.push_back(face);
@@ -190,7 +190,7 @@ TEST(SurfaceCheck, FindsDegenerateFaces) {
     // On the edge between its neighbours below and above: quadrilaterals stay sound, so cut two of them.
     const Vec3 a = mesh.positions[v - 1], b = mesh.positions[v + 1];
     const auto next = static_cast<std::int32_t>(mesh.positions.size());
-    mesh.positions.push_back((a + b) / 2);
+    mesh.positions.emplace_back((a + b) / 2);
     mesh.faces.push_back(
         {static_cast<std::int32_t>(v - 1), next, static_cast<std::int32_t>(v + 1), kNoVertex});
     mesh.corner_uvs.clear();
