@@ -41,7 +41,7 @@ CubeAtlas::CubeAtlas(int side) : m_side(side) {
     for (const Run& run : runs())
         std::fill(m_chart.begin() + static_cast<std::ptrdiff_t>(run.begin),
                   m_chart.begin() + static_cast<std::ptrdiff_t>(run.end),
-                  static_cast<std::int8_t>(run.chart));
+                  static_cast<std::int16_t>(run.chart));
     make_bleeds();
 }
 

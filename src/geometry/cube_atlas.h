@@ -59,7 +59,7 @@ class CubeAtlas {
     std::size_t texel_at(const Vec3& direction) const;
 
     /// The chart that covers a texel; -1 in the gutters.
-    int chart_of(std::size_t texel) const { return int{m_chart[texel]}; }
+    int chart_of(std::size_t texel) const { return m_chart[texel]; }
     bool covered(std::size_t texel) const { return m_chart[texel] >= 0; }
     /// Unit direction of the centre of a covered texel.
     Vec3 texel_direction(std::size_t texel) const;
@@ -91,7 +91,7 @@ class CubeAtlas {
     void make_bleeds();
 
     int m_side, m_width = 0, m_height = 0;
-    std::vector<std::int8_t> m_chart;
+    std::vector<std::int16_t> m_chart;
     std::vector<Bleed> m_bleeds;
 };
 
