@@ -96,8 +96,9 @@ LimbShape::Furrows LimbShape::furrows_away(const FractureParameters& p) {
 /// Fills `scale`, the factor on x and y.
 void LimbShape::apply(Block& b) const {
     constexpr std::size_t kSize = Block::kSize;
-    std::array<float, kSize> c{}, s{}, depth{}, depth_away{};
-    float deepest = 0;
+    std::array<float, kSize> c{}, s{}, depth{}, along{};
+    const float low = m_lowest, high = m_highest;
+    const Furrows at_break = m_at_break, away = m_away;
     const auto share = [](float radius, float width) {
         return std::clamp((radius - 1 + width) / width, 0.0F, 1.0F);
     };
@@ -106,25 +107,21 @@ void LimbShape::apply(Block& b) const {
         const float inverse = 1 / std::max(radius, 1e-6F);
         c[i] = b.x[i] * inverse;
         s[i] = b.y[i] * inverse;
-        depth[i] = m_at_break.depth * share(radius, m_at_break.width);
-        depth_away[i] = m_away.depth * share(radius, m_away.width);
+        along[i] = b.z[i] - std::clamp(b.z[i], low, high);
+        const float here = at_break.depth * share(radius, at_break.width);
+        const float there = away.depth * share(radius, away.width);
+        depth[i] = here + smooth_step(0, kFurrowFade, std::abs(along[i])) * (there - here);
     }
-    for (const float d : depth_away) deepest = std::max(deepest, d);
-    const float low = m_lowest, high = m_highest;
     for (std::size_t i = 0; i < kSize; ++i)
         b.scale[i] =
-            (1 - m_taper * (b.z[i] - std::clamp(b.z[i], low, high))) *
+            (1 - m_taper * along[i]) *
             (1 + m_outline * gradient_noise(m_outline_seed, 0.9F * c[i] + 17.3F, 0.9F * s[i] + 5.7F));
-    if (deepest <= 0) return;
+    float deepest = 0;
+    for (const float d : depth) deepest = std::max(deepest, d);
+    if (deepest <= 0) return;        // wood well inside, as most of a broken surface is
     const BarkRelief bark = m_bark;  // a copy, which the writes below cannot alias
     std::array<float, kSize> factor{};
-    for (std::size_t i = 0; i < kSize; ++i) {
-        const float below = b.z[i] < low ? b.z[i] - low : 0.0F;
-        const float above = b.z[i] > high ? b.z[i] - high : 0.0F;
-        const float away = smooth_step(0, kFurrowFade, above - below);
-        depth[i] += away * (depth_away[i] - depth[i]);
-        factor[i] = bark.factor(c[i], s[i], below + above);
-    }
+    for (std::size_t i = 0; i < kSize; ++i) factor[i] = bark.factor(c[i], s[i], along[i]);
     for (std::size_t i = 0; i < kSize; ++i) b.scale[i] *= 1 + (factor[i] - 1) * depth[i];
 }
 
