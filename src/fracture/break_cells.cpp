@@ -329,7 +329,7 @@ class CellMaker {
     }
 
     std::int32_t draw_bundle_site(const Bundle& bundle, int r, int s) {
-        const float radius = std::hypot(bundle.centre_x, bundle.centre_y);
+        const float radius = std::sqrt(bundle.centre_x * bundle.centre_x + bundle.centre_y * bundle.centre_y);
         const float angle = angle_of(bundle.centre_x, bundle.centre_y);
         const Tissue tissue = std::min(tissue_at(radius), Tissue::Sapwood);
         const float length = drawn_length(thorns_at(radius, angle, tissue), bundle.name, 0);

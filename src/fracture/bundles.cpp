@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/angles.h"
 #include "fracture/noise.h"
@@ -18,6 +19,18 @@ constexpr std::size_t kMostBands = 250;
 float golden_point(std::uint32_t k) {
     const double x = k * kGolden;
     return static_cast<float>(x - std::floor(x));
+}
+
+/// Cosine and sine of an angle in turns, to 4e-7, without the library's reduction of large ones.
+inline std::pair<float, float> on_unit_circle(float turns) {
+    const float quarter = std::nearbyint(4 * turns);
+    const float x = (4 * turns - quarter) * (kTwoPi<float> / 4), x2 = x * x;
+    const float sine = x * (1 + x2 * (-1.0F / 6 + x2 * (1.0F / 120 - x2 / 5040)));
+    const float cosine = 1 + x2 * (-0.5F + x2 * (1.0F / 24 + x2 * (-1.0F / 720 + x2 / 40320)));
+    const auto quadrant = static_cast<std::uint32_t>(static_cast<std::int32_t>(quarter));
+    const bool swapped = (quadrant & 1U) != 0;
+    const float c = swapped ? sine : cosine, s = swapped ? cosine : sine;
+    return {((quadrant + 1) & 2U) != 0 ? -c : c, (quadrant & 2U) != 0 ? -s : s};
 }
 
 std::size_t radius_bucket(float radius) {
@@ -85,30 +98,29 @@ void BundleTable::fill_band(Band& band, std::uint32_t count) {
     m_band_of.resize(band.first + count, static_cast<std::uint32_t>(m_bands.size()));
     m_buckets.resize(band.bucket_first + count + 1);
 
-    // Counting sort into as many buckets as bricks: no bucket holds more than a few.
-    std::uint32_t* sizes = m_buckets.data() + band.bucket_first;
-    std::fill(sizes, sizes + count + 1, 0U);
-    const auto scale = static_cast<float>(count);
-    for (std::uint32_t k = 0; k < count; ++k)
-        ++sizes[std::min(count - 1, static_cast<std::uint32_t>(golden_point(k) * scale)) + 1];
-    for (std::uint32_t i = 0; i < count; ++i) sizes[i + 1] += sizes[i];
+    while (m_golden.size() <= count)
+        m_golden.push_back(golden_point(static_cast<std::uint32_t>(m_golden.size())));
+    const float* points = m_golden.data();
     float* starts = m_starts.data() + band.first;
     std::uint32_t* names = m_names.data() + band.first;
-    std::fill(starts, starts + count, 2.0F);
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const float start = golden_point(k);
-        std::uint32_t i = sizes[std::min(count - 1, static_cast<std::uint32_t>(start * scale))];
-        for (; starts[i] < 2.0F && starts[i] < start; ++i) {
-        }
-        std::uint32_t end = i;
-        while (starts[end] < 2.0F) ++end;
-        for (std::uint32_t j = end; j > i; --j) {
-            starts[j] = starts[j - 1];
-            names[j] = names[j - 1];
-        }
-        starts[i] = start;
+    std::uint32_t* buckets = m_buckets.data() + band.bucket_first;
+    // The points of a golden sequence follow one another by three steps of their indices (Sos 1958): with
+    // those of the lowest point above 0 and of the highest one.
+    std::uint32_t low = 1, high = 1;
+    while (low + high < count) (points[low + high] < points[low] ? low : high) = low + high;
+    const auto scale = static_cast<float>(count);
+    std::uint32_t bucket = 0;
+    for (std::uint32_t i = 0, k = 0; i < count; ++i) {
+        starts[i] = points[k];
         names[i] = k;
+        const auto own = static_cast<std::uint32_t>(points[k] * scale);
+        while (bucket <= own) buckets[bucket++] = i;
+        if (k + low < count)
+            k += low;
+        else
+            k = k >= high ? k - high : k + low - high;
     }
+    while (bucket <= count) buckets[bucket++] = count;
 }
 
 std::size_t BundleTable::index_at(float radius, float angle) {
@@ -138,21 +150,21 @@ std::size_t BundleTable::index_at(float radius, float angle) {
 
 /// The plane of a brick between two angles, in turns.
 Bundle BundleTable::plane_of(const Band& band, std::size_t index, float start, float end) const {
-    const float angle = (0.5F * (start + end) - band.phase) * kTwoPi<float>;
+    const auto [out_x, out_y] = on_unit_circle(0.5F * (start + end) - band.phase);
     const float radius = 0.5F * (band.low + std::min(band.high, kOuterRadius));
     Bundle bundle;
-    bundle.centre_x = radius * std::cos(angle);
-    bundle.centre_y = radius * std::sin(angle);
+    bundle.centre_x = radius * out_x;
+    bundle.centre_y = radius * out_y;
     const auto random = [&](NoisePurpose purpose) {
         return random_unit(m_seed, purpose, band.name, m_names[index], m_level);
     };
     const float weight = m_tension.weight(bundle.centre_x, bundle.centre_y);
     const float tallness =
         std::pow(random(NoisePurpose::BundleHeight), m_shape.skew) - 1 / (m_shape.skew + 1);
-    const float direction = kTwoPi<float> * random(NoisePurpose::BundleDirection);
+    const auto [down_x, down_y] = on_unit_circle(random(NoisePurpose::BundleDirection));
     const float slope = m_shape.slope * weight * (0.3F + 0.9F * random(NoisePurpose::BundleSlope));
-    bundle.slope_x = slope * std::cos(direction);
-    bundle.slope_y = slope * std::sin(direction);
+    bundle.slope_x = slope * down_x;
+    bundle.slope_y = slope * down_y;
     bundle.height = m_shape.amplitude * weight * tallness - bundle.slope_x * bundle.centre_x -
                     bundle.slope_y * bundle.centre_y;
     bundle.name = noise_key(m_seed, NoisePurpose::BundleName, band.name, m_names[index], m_level);

@@ -57,6 +57,7 @@ class BundleTable {
     std::uint32_t m_seed = 0, m_level = 0;
     BundleLevel m_shape{};
     TensionField m_tension{};
+    std::vector<float> m_golden;             // the golden sequence as far as it was needed
     std::vector<Band> m_bands;               // from the pith out
     std::vector<std::uint8_t> m_band_start;  // by radius bucket: the innermost band that reaches into it
     std::vector<float> m_starts;             // of the bricks, in turns; sorted within a band

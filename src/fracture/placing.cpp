@@ -154,41 +154,13 @@ void LimbShape::bend(std::span<Vector3f> points) const {
     }
 }
 
-/// Where the piece has the stub's vertices it takes their new places; only the others are worked out.
+/// The surface that both ends share lies between the lowest and the highest point of the break, where heights
+/// do not count: a hole moves as the other end's surface over it, which is worked out once.
 void LimbShape::apply(BreakEnds& ends) const {
     std::vector<Vector3f>&stub = ends.stub.positions, &piece = ends.piece.positions;
     const auto shared = static_cast<std::size_t>(ends.surface_vertices);
-    Block block{}, holes{};
-    std::array<std::size_t, Block::kSize> hole_vertices{};
-    std::array<bool, Block::kSize> same{};
-    std::size_t hole_count = 0;
-    const auto finish_holes = [&] {
-        apply(holes);
-        for (std::size_t k = 0; k < hole_count; ++k) {
-            piece[hole_vertices[k]].x() = holes.x[k] * holes.scale[k];
-            piece[hole_vertices[k]].y() = holes.y[k] * holes.scale[k];
-        }
-        hole_count = 0;
-    };
-    for (std::size_t begin = 0; begin < shared; begin += Block::kSize) {
-        const std::size_t count = std::min(Block::kSize, shared - begin);
-        for (std::size_t i = 0; i < count; ++i) {
-            block.set(i, stub[begin + i]);
-            same[i] = stub[begin + i] == piece[begin + i];
-            if (same[i]) continue;
-            holes.set(hole_count, piece[begin + i]);
-            hole_vertices[hole_count++] = begin + i;
-            if (hole_count == Block::kSize) finish_holes();
-        }
-        apply(block);
-        for (std::size_t i = 0; i < count; ++i) {
-            stub[begin + i].x() = block.x[i] * block.scale[i];
-            stub[begin + i].y() = block.y[i] * block.scale[i];
-            if (same[i]) piece[begin + i] = stub[begin + i];
-        }
-    }
-    finish_holes();
-    scale_plan(std::span(stub).subspan(shared));
+    scale_plan(stub);
+    for (std::size_t i = 0; i < shared; ++i) piece[i].head<2>() = stub[i].head<2>();
     scale_plan(std::span(piece).subspan(shared));
     if (m_curvature == 0) return;
     bend(stub);

@@ -1,7 +1,9 @@
 #include "fracture/thorn_mesh.h"
 
-#include <numbers>
+#include <algorithm>
+#include <utility>
 
+#include "core/angles.h"
 #include "fracture/noise.h"
 
 namespace windfall::fracture {
@@ -10,46 +12,62 @@ namespace {
 using geometry::kNoVertex;
 
 /// Adds rows of points from the root to the tip and the faces between them; on the piece, where the tip is
-/// below, all faces turn round.
+/// below, all faces turn round. The room for all of them is made at once.
 class Body {
   public:
-    Body(const ThornShape& shape, BranchMesh& mesh)
-        : m_shape(shape), m_mesh(mesh), m_first(static_cast<std::int32_t>(mesh.positions.size())) {}
+    Body(const ThornShape& shape, std::size_t vertices, std::size_t faces, BranchMesh& mesh)
+        : m_surface(shape.surface),
+          m_over_length(1 / (shape.tip - shape.surface)),
+          m_upwards(shape.tip > shape.root),
+          m_first(mesh.positions.size()),
+          m_vertex(m_first),
+          m_face(mesh.faces.size()),
+          m_mesh(mesh) {
+        const std::size_t vertex_count = m_first + vertices, face_count = m_face + faces;
+        mesh.positions.resize(vertex_count);
+        mesh.height.resize(vertex_count);
+        mesh.thorn.resize(vertex_count);
+        mesh.tissue.resize(vertex_count, shape.tissue);
+        mesh.bundle.resize(vertex_count, shape.bundle);
+        mesh.faces.resize(face_count);
+        mesh.parts.resize(face_count, Part::Thorns);
+        mesh.corner_uvs.resize(face_count);
+    }
 
     std::int32_t add(const Vector2f& place, float z) {
-        m_mesh.positions.emplace_back(place.x(), place.y(), z);
-        m_mesh.height.push_back(z);
-        const float along = (z - m_shape.surface) / (m_shape.tip - m_shape.surface);
-        m_mesh.thorn.push_back(along < 0 ? 0.0F : along);
-        m_mesh.tissue.push_back(m_shape.tissue);
-        m_mesh.bundle.push_back(m_shape.bundle);
-        return static_cast<std::int32_t>(m_mesh.positions.size()) - 1;
+        const std::size_t v = m_vertex++;
+        m_mesh.positions[v] = {place.x(), place.y(), z};
+        m_mesh.height[v] = z;
+        m_mesh.thorn[v] = std::max(0.0F, (z - m_surface) * m_over_length);
+        return static_cast<std::int32_t>(v);
     }
 
     /// A face, counter-clockwise from outside on the stub.
-    void face(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d = kNoVertex) {
-        const bool upwards = m_shape.tip > m_shape.root;
-        if (d == kNoVertex)
-            m_mesh.faces.push_back(upwards ? geometry::Face{a, b, c, d} : geometry::Face{c, b, a, d});
-        else
-            m_mesh.faces.push_back(upwards ? geometry::Face{a, b, c, d} : geometry::Face{d, c, b, a});
-        m_mesh.parts.push_back(Part::Thorns);
-        std::array<Vector2f, 4> uv;
-        for (std::size_t k = 0; k < 4; ++k) uv[k] = uv_of(m_mesh.faces.back()[k]);
-        m_mesh.corner_uvs.push_back(uv);
+    void face(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+        if (!m_upwards) {
+            std::swap(a, d);
+            std::swap(b, c);
+        }
+        m_mesh.faces[m_face] = {a, b, c, d};
+        m_mesh.corner_uvs[m_face++] = {uv_of(a), uv_of(b), uv_of(c), uv_of(d)};
+    }
+    void face(std::int32_t a, std::int32_t b, std::int32_t c) {
+        if (!m_upwards) std::swap(a, c);
+        m_mesh.faces[m_face] = {a, b, c, kNoVertex};
+        m_mesh.corner_uvs[m_face++] = {uv_of(a), uv_of(b), uv_of(c), Vector2f(0, 0)};
     }
 
   private:
     /// Along the fibre: its number around over four, and height in units of 2 pi radii as on walls and bark.
     Vector2f uv_of(std::int32_t v) const {
-        if (v == kNoVertex) return Vector2f::Zero();
-        return {0.25F * static_cast<float>((v - m_first) % 4),
-                m_mesh.positions[static_cast<std::size_t>(v)].z() / (2 * std::numbers::pi_v<float>)};
+        const auto i = static_cast<std::size_t>(v);
+        return {0.25F * static_cast<float>((i - m_first) & 3U), m_mesh.height[i] * (1 / kTwoPi<float>)};
     }
 
-    const ThornShape& m_shape;
+    float m_surface, m_over_length;
+    bool m_upwards;
+    std::size_t m_first, m_vertex, m_face;
     BranchMesh& m_mesh;
-    std::int32_t m_first;
 };
 
 /// Random number 0 .. 1 of a thorn.
@@ -60,7 +78,7 @@ float drawn(const ThornShape& shape, std::uint32_t which) {
 }  // namespace
 
 void add_thorn(const ThornShape& shape, BranchMesh& mesh) {
-    Body body(shape, mesh);
+    Body body(shape, 8, 8, mesh);
     const auto& f = shape.footprint;
     const float pyramid = 0.5F + 0.3F * drawn(shape, 0);
     const float shoulder = shape.tip + pyramid * (shape.surface - shape.tip);
@@ -87,7 +105,8 @@ void add_thorn(const ThornShape& shape, BranchMesh& mesh) {
 }
 
 void add_strand(const ThornShape& shape, int segments, const Vector2f& bend, BranchMesh& mesh) {
-    Body body(shape, mesh);
+    const auto count = static_cast<std::size_t>(4 * segments + 1);
+    Body body(shape, count, count, mesh);  // a face for each point but the top, and the bottom
     const Vector2f centre =
         0.25F * (shape.footprint[0] + shape.footprint[1] + shape.footprint[2] + shape.footprint[3]);
     const float split = 0.2F + 0.3F * drawn(shape, 0);
