@@ -72,7 +72,7 @@ std::vector<std::size_t> Growth::disc(std::size_t texel, double radius_m) const 
     const Vec3& centre = m_state->positions[texel];
     const auto side = static_cast<std::ptrdiff_t>(m_state->stencil.side);
     std::vector<std::size_t> found{texel};
-    std::vector<std::size_t> border{texel};
+    std::vector<std::size_t> border{texel}, before;
     const auto visit = [&](std::size_t i, std::vector<std::size_t>& next) {
         if (m_state->stencil.area_m2[i] > 0 && (m_state->positions[i] - centre).norm() < radius_m)
             next.push_back(i);
@@ -92,12 +92,16 @@ std::vector<std::size_t> Growth::disc(std::size_t texel, double radius_m) const 
         }
         std::sort(next.begin(), next.end());
         next.erase(std::unique(next.begin(), next.end()), next.end());
-        border.clear();
-        std::set_difference(next.begin(), next.end(), found.begin(), found.end(), std::back_inserter(border));
-        std::vector<std::size_t> all;
-        std::merge(found.begin(), found.end(), border.begin(), border.end(), std::back_inserter(all));
-        found = std::move(all);
+        // Links lead both ways: what was found earlier than the border before cannot be met again.
+        std::vector<std::size_t> not_before, fresh;
+        std::set_difference(next.begin(), next.end(), before.begin(), before.end(),
+                            std::back_inserter(not_before));
+        std::set_difference(not_before.begin(), not_before.end(), border.begin(), border.end(),
+                            std::back_inserter(fresh));
+        found.insert(found.end(), fresh.begin(), fresh.end());
+        before = std::exchange(border, std::move(fresh));
     }
+    std::sort(found.begin(), found.end());
     return found;
 }
 

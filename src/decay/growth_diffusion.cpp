@@ -13,6 +13,30 @@ namespace {
 constexpr std::size_t kRunsPerTask = 2;
 constexpr double kStabilityMargin = 0.9;
 
+/// What a stage reads, each from the first texel of a piece of a row on.
+struct StageRow {
+    const float *density, *east, *south, *south_east, *south_west, *inverse_area;
+};
+
+/// out = u + nu (out - u) + w div(conductance grad u). A function of its own: only so does the compiler know
+/// that what it writes is nothing that it reads.
+[[gnu::noinline]] void stage_row(const StageRow& row, std::ptrdiff_t side, std::ptrdiff_t count, float nu,
+                                 float w, float* __restrict out) {
+    const float* __restrict u = row.density, * __restrict inverse_area = row.inverse_area;
+    const float* __restrict up = u - side, * __restrict down = u + side;
+    const float* __restrict e = row.east, * __restrict s = row.south;
+    const float* __restrict se = row.south_east, * __restrict sw = row.south_west;
+    const float* __restrict n = s - side, * __restrict nw = se - side, * __restrict ne = sw - side;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const float here = u[i];
+        const float flux = e[i] * (u[i + 1] - here) + e[i - 1] * (u[i - 1] - here) + s[i] * (down[i] - here) +
+                           n[i] * (up[i] - here) + se[i] * (down[i + 1] - here) +
+                           nw[i - 1] * (up[i - 1] - here) + sw[i] * (down[i - 1] - here) +
+                           ne[i + 1] * (up[i + 1] - here);
+        out[i] = here + nu * (out[i] - here) + w * inverse_area[i] * flux;
+    }
+}
+
 }  // namespace
 
 int stage_count(double stiffness, bool single) {
@@ -117,29 +141,16 @@ void SkinDiffusion::run_stages(TexelField& field, const std::vector<TileGrid::Ru
         float* result = before->data();
         parallel_blocks(runs.size(), kRunsPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last; ++k) {
-                const float* __restrict inverse_area = m_stencil.inverse_area.data();
                 m_tiles.for_pieces(runs[k], [&](std::uint32_t, std::size_t begin, std::size_t end) {
-                    const float* __restrict u = y;
-                    const float* __restrict up = y - side, * __restrict down = y + side;
-                    const float* __restrict e = links.east, * __restrict s = links.south;
-                    const float* __restrict se = links.south_east, * __restrict sw = links.south_west;
-                    const float* __restrict n = s - side, * __restrict nw = se - side, * __restrict ne = sw - side;
-                    float* __restrict out = result;
-                    for (auto i = static_cast<std::ptrdiff_t>(begin); i < static_cast<std::ptrdiff_t>(end);
-                         ++i) {
-                        const float here = u[i];
-                        const float flux = e[i] * (u[i + 1] - here) + e[i - 1] * (u[i - 1] - here) +
-                                           s[i] * (down[i] - here) + n[i] * (up[i] - here) +
-                                           se[i] * (down[i + 1] - here) + nw[i - 1] * (up[i - 1] - here) +
-                                           sw[i] * (down[i - 1] - here) + ne[i + 1] * (up[i + 1] - here);
-                        out[i] = here + nu * (out[i] - here) + w * inverse_area[i] * flux;
-                    }
+                    stage_row({y + begin, links.east + begin, links.south + begin, links.south_east + begin,
+                               links.south_west + begin, m_stencil.inverse_area.data() + begin},
+                              side, static_cast<std::ptrdiff_t>(end - begin), nu, w, result + begin);
                 });
                 for_seam_texels(runs[k], [&](std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
                     float flux = 0;
                     for (std::uint32_t link = begin; link < end; ++link)
                         flux += links.seam[link] * (y[m_stencil.seam_neighbour[link]] - y[i]);
-                    result[i] += w * inverse_area[i] * flux;
+                    result[i] += w * m_stencil.inverse_area[i] * flux;
                 });
             }
         });
