@@ -61,7 +61,7 @@ void frames_500(benchmark::State& state) {
         decay::Colonies colonies({}, 3);
         for (const Vec3& d : {Vec3(1, 0.3, 0.2), Vec3(0.8, -0.5, 0.4)})
             for (std::size_t o = 0; o < 2; ++o)
-                colonies.start(growth, {kRadius_m * d.normalized(), decay::StartKind::Wound, o, 0.3, 0.0015});
+                colonies.start(growth, {kRadius_m * d.normalized(), o, 0.3, 0.0015});
         const double start = growth.total();
         for (int frame = 0; frame < 500; ++frame) {
             growth.advance(1, {});

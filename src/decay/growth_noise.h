@@ -9,7 +9,7 @@
 namespace windfall::decay {
 
 /// Keeps the numbers of one use apart from those of another.
-enum class GrowthNoise : std::uint32_t { Motility = 1, Nutrient, Step, Spread, SpreadPlace, Painted };
+enum class GrowthNoise : std::uint32_t { Motility = 1, Nutrient, Step, Spread, SpreadPlace };
 
 /// 32 bits to 32 well mixed bits, one to one (Wellons' "lowbias32").
 inline std::uint32_t scrambled(std::uint32_t x) {

@@ -106,9 +106,6 @@ void read_number(const std::string& key, const nlohmann::json& value, Eigen::Vec
     for (int k = 0; k < 3; ++k) read_number(key, value[static_cast<std::size_t>(k)], member[k], low, high);
 }
 
-nlohmann::json to_json(double value) { return value; }
-nlohmann::json to_json(const Eigen::Vector3d& colour) { return {colour.x(), colour.y(), colour.z()}; }
-
 constexpr const char* kRotLookPrefix = "rot_look.";
 
 }  // namespace
@@ -130,64 +127,6 @@ MoldLook mold_look(const std::string& species) {
     for (const MoldLook& mold : molds())
         if (lower.find(mold.key) != std::string::npos) return mold;
     return plain_mold();
-}
-
-const std::vector<std::string>& mold_keys() {
-    static const std::vector<std::string> keys = [] {
-        std::vector<std::string> result;
-        for (const MoldLook& mold : molds()) result.push_back(mold.key);
-        return result;
-    }();
-    return keys;
-}
-
-RotLook fruit_rot_look(const std::string& fruit) {
-    RotLook look;
-    if (fruit == "apple") {
-        look.fresh_colour = {0.75, 0.66, 0.32};
-        look.blush_colour = {0.58, 0.115, 0.095};
-        look.blush = 0.72;
-        look.streaks = 0.55;
-        look.roughness = 0.24;
-        look.soaked_colour = {0.58, 0.36, 0.13};
-        look.rot_colour = {0.47, 0.28, 0.12};
-        look.old_rot_colour = {0.25, 0.14, 0.07};
-    } else if (fruit == "tomato") {
-        look.fresh_colour = {0.71, 0.13, 0.075};
-        look.blush_colour = {0.75, 0.26, 0.09};
-        look.blush = 0.12;
-        look.mottle = 0.05;
-        look.roughness = 0.18;
-        look.soaked_colour = {0.60, 0.17, 0.06};
-        look.rot_colour = {0.42, 0.17, 0.08};
-        look.old_rot_colour = {0.19, 0.09, 0.06};
-    } else if (fruit == "peach") {
-        look.fresh_colour = {0.90, 0.66, 0.40};
-        look.blush_colour = {0.76, 0.20, 0.17};
-        look.blush = 0.55;
-        look.streaks = 0.15;
-        look.roughness = 0.75;
-        look.soaked_colour = {0.66, 0.40, 0.20};
-        look.rot_colour = {0.48, 0.28, 0.15};
-    } else if (fruit == "pear") {
-        look.fresh_colour = {0.66, 0.635, 0.31};
-        look.blush_colour = {0.66, 0.48, 0.24};
-        look.blush = 0.3;
-        look.streaks = 0.1;
-        look.mottle = 0.14;
-        look.roughness = 0.4;
-        look.soaked_colour = {0.58, 0.40, 0.15};
-        look.rot_colour = {0.45, 0.28, 0.12};
-    }
-    return look;
-}
-
-nlohmann::json rot_look_to_json(const RotLook& look) {
-    nlohmann::json json = {{std::string(kRotLookPrefix) + "species", look.species}};
-    for_each_member(look, [&](const char* key, const auto& member, double, double) {
-        json[std::string(kRotLookPrefix) + key] = to_json(member);
-    });
-    return json;
 }
 
 RotLook rot_look_from_json(const nlohmann::json& json, RotLook look) {

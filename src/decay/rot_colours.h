@@ -36,9 +36,6 @@ struct MoldLook {
 /// a plain grey mold for any other text.
 MoldLook mold_look(const std::string& species);
 
-/// The keys of the molds there are: digitatum, expansum, rhizopus, neofabraea, botrytis, erwinia.
-const std::vector<std::string>& mold_keys();
-
 /// The skin of a fruit, fresh and rotten. Colours are sRGB as typed, 0 .. 1, since artists type them.
 struct RotLook {
     Eigen::Vector3d fresh_colour{0.93, 0.47, 0.05};
@@ -55,13 +52,8 @@ struct RotLook {
     std::string species = "digitatum";  ///< of the mold in the map "fungus"
 };
 
-/// The look of a fruit: orange, apple, tomato, peach, pear; that of an orange for any other name.
-RotLook fruit_rot_look(const std::string& fruit);
-
-/// What a take keeps of it (TakeInfo::look): an object with the keys "rot_look.fresh_colour" ...
-nlohmann::json rot_look_to_json(const RotLook& look);
-
-/// The inverse; keys that are missing keep the values of `look`, other keys are left out, since a take's look
+/// From what a take keeps of it (TakeInfo::look), an object with the keys "rot_look.fresh_colour" ...; keys
+/// that are missing keep the values of `look`, other keys are left out, since a take's look
 /// holds those of pictures too. InputError for a value of the wrong type or out of range.
 RotLook rot_look_from_json(const nlohmann::json& json, RotLook look = {});
 

@@ -148,23 +148,11 @@ std::vector<SkinStarts> RottingPile::starting_places(const Specimen& specimen) c
         }
         starts[fruit].wounds.push_back(bodies[fruit].directions()[vertex]);
     }
-    if (!specimen.mask.empty()) {
-        std::vector<double> up_to(m_atlas.texel_count());
-        for (std::size_t f = 0; f < bodies.size(); ++f) {
-            double sum = 0;
-            for (std::size_t i = 0; i < up_to.size(); ++i)
-                up_to[i] = sum += m_atlas.covered(i) ? specimen.mask[i] : 0;
-            if (!(sum > 0))
-                throw InputError("start.mask has no bright texel on the fruit: paint where it is wounded");
-            for (std::int64_t k = 0; k < wanted.mask_wounds; ++k) {
-                const double u =
-                    random_uniform4(m_parameters.seed, RandomPurpose::RotWounds,
-                                    static_cast<std::uint64_t>(k), static_cast<std::uint32_t>(f))[2];
-                const auto texel = std::upper_bound(up_to.begin(), up_to.end(), u * sum) - up_to.begin();
-                starts[f].wounds.push_back(m_atlas.texel_direction(static_cast<std::size_t>(texel)));
-            }
-        }
-    }
+    for (std::size_t f = 0; f < bodies.size() && !specimen.mask.empty(); ++f)
+        for (const std::size_t texel :
+             painted_texels(m_atlas, specimen.mask, static_cast<std::size_t>(wanted.mask_wounds),
+                            m_parameters.seed, static_cast<std::uint32_t>(f)))
+            starts[f].wounds.push_back(m_atlas.texel_direction(texel));
     return starts;
 }
 

@@ -66,14 +66,13 @@ RottingSkin::RottingSkin(const DecayParameters& parameters, const geometry::Cube
       m_transpiration(parameters.water.transpiration_ug_s_m2_pa),
       m_rot_leak(parameters.water.rot_leak) {
     m_start_total = m_growth.total();
-    const auto begin_at = [&](const geometry::Vec3& direction, StartKind kind) {
+    const auto begin_at = [&](const geometry::Vec3& direction) {
         for (std::size_t o = 0; o < m_growth.organism_count(); ++o)
-            m_colonies.start(m_growth,
-                             {surface(direction), kind, o, kStartStrength, parameters.start.radius_m});
+            m_colonies.start(m_growth, {surface(direction), o, kStartStrength, parameters.start.radius_m});
     };
-    for (const geometry::Vec3& d : starts.wounds) begin_at(d, StartKind::Wound);
+    for (const geometry::Vec3& d : starts.wounds) begin_at(d);
     if (parameters.start.contacts)
-        for (const geometry::Vec3& d : starts.contacts) begin_at(d, StartKind::Contact);
+        for (const geometry::Vec3& d : starts.contacts) begin_at(d);
     m_planted = m_growth.total() - m_start_total;
 }
 
@@ -116,8 +115,7 @@ void RottingSkin::infect(const geometry::Vec3& direction) {
     const std::size_t texel = m_atlas.texel_at(direction);
     const double total = m_growth.total();
     for (std::size_t o = 0; o < m_growth.organism_count(); ++o)
-        m_colonies.start(m_growth,
-                         {m_growth.positions_m()[texel], StartKind::Contact, o, kStartStrength, 0.0015});
+        m_colonies.start(m_growth, {m_growth.positions_m()[texel], o, kStartStrength, 0.0015});
     m_planted += m_growth.total() - total;
 }
 

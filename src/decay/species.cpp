@@ -21,67 +21,43 @@ const std::vector<Species>& species() {
          {3, 28.5, 38},
          {0.945, 0.997, 1.01},
          "minimum 3-6 C for the cold-hardy kind: C.-H. Liao in G. M. Sapers et al., Microbiology of Fruits "
-         "and "
-         "Vegetables, 2006, section 5.3.2; fast growth at 0.960-0.997: E. Moh et al., Biotechnol. Agron. "
-         "Soc. "
-         "Environ. 15(3), 2011; best near 28-30 C in the handbooks; maximum temperature and minimum water "
-         "activity assumed",
-         {0.22, 0.10, 0.03},
-         {0.07, 0.035, 0.015},
-         0},
+         "and Vegetables, 2006, section 5.3.2; fast growth at 0.960-0.997: E. Moh et al., Biotechnol. Agron. "
+         "Soc. Environ. 15(3), 2011; best near 28-30 C in the handbooks; maximum temperature and minimum "
+         "water activity assumed"},
         {"penicillium-digitatum",
          "green mould",
          OrganismKind::Fungus,
          {3, 24.5, 36},
          {0.90, 0.995, 1.01},
          "P. Plaza, J. Usall, N. Teixido, I. Vinas, J. Appl. Microbiol. 94, 2003 (4-37 C, aw 0.87-0.99: "
-         "grows at "
-         "4-30 C, not at 37 C); fitted",
-         {0.75, 0.78, 0.72},
-         {0.12, 0.28, 0.20},
-         0.0006},
+         "grows at 4-30 C, not at 37 C); fitted"},
         {"penicillium-expansum",
          "blue mould",
          OrganismKind::Fungus,
          {-3, 24.5, 35},
          {0.83, 0.985, 1.01},
          "C. Tannous et al., Food Sci. Nutr. 4(4), 2016 (best 24 C, aw 0.99); minima: J. I. Pitt, A. D. "
-         "Hocking, "
-         "Fungi and Food Spoilage, 2009",
-         {0.76, 0.79, 0.78},
-         {0.10, 0.24, 0.28},
-         0.0005},
+         "Hocking, Fungi and Food Spoilage, 2009"},
         {"rhizopus",
          "whisker mould (Rhizopus stolonifer)",
          OrganismKind::Fungus,
          {3, 26, 36},
          {0.84, 0.995, 1.01},
-         "J. I. Pitt, A. D. Hocking, Fungi and Food Spoilage, 2009; best water activity assumed",
-         {0.72, 0.72, 0.70},
-         {0.06, 0.06, 0.06},
-         0.006},
+         "J. I. Pitt, A. D. Hocking, Fungi and Food Spoilage, 2009; best water activity assumed"},
         {"neofabraea",
          "bull's eye rot (Neofabraea vagabunda)",
          OrganismKind::Fungus,
          {-1, 20, 30},
          {0.90, 0.995, 1.01},
          "cold-growing: rots apples in cold store, and is cultured at 15-20 C (Italian isolates, IOBC-WPRS); "
-         "the "
-         "numbers are assumed",
-         {0.62, 0.52, 0.38},
-         {0.26, 0.15, 0.07},
-         0.0002},
+         "the numbers are assumed"},
         {"botrytis",
          "grey mould (Botrytis cinerea)",
          OrganismKind::Fungus,
          {-2, 21.5, 32},
          {0.93, 0.995, 1.01},
          "best at 17-23 C and 95 % humidity, grows just above freezing: INRAE ephytia; limits: J. I. Pitt, "
-         "A. D. "
-         "Hocking, Fungi and Food Spoilage, 2009",
-         {0.70, 0.70, 0.68},
-         {0.25, 0.23, 0.21},
-         0.0012},
+         "A. D. Hocking, Fungi and Food Spoilage, 2009"},
     };
     return list;
 }

@@ -20,7 +20,7 @@ double cardinal_growth(const CardinalValues& values, double x);
 /// Soft rot comes first and opens the skin; a fungus lives in it (Kider, Raja, Badler 2011, section 4.3).
 enum class OrganismKind { SoftRot, Fungus };
 
-/// An organism as the literature and the eye know it. Colours are linear RGB.
+/// An organism as the literature knows it.
 struct Species {
     std::string name;         ///< as in a recipe: "penicillium-digitatum"
     std::string common_name;  ///< "green mould"
@@ -29,9 +29,6 @@ struct Species {
     CardinalValues
         water_activity;  ///< the maximum stands just above 1, so that free water does not stop growth
     std::string source;  ///< of the cardinal values; says which of them are assumed
-    std::array<double, 3> young_colour{};  ///< of the growing rim: mycelium, or fresh rot
-    std::array<double, 3> old_colour{};    ///< of the spores behind it, or old rot
-    double hair_length_m = 0;              ///< of grown aerial hyphae or sporangiophores; 0: none
 };
 
 const std::vector<Species>& species();

@@ -1,34 +1,26 @@
 #include "decay/starting_points.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
-#include "decay/growth_noise.h"
+#include "core/random.h"
 
 namespace windfall::decay {
 
-std::vector<std::size_t> painted_texels(const Growth& growth, std::span<const float> weight,
-                                        std::size_t count, std::uint64_t seed) {
-    if (weight.size() != growth.texel_count())
-        throw InputError(fmt::format("a painted map of {} values does not fit the texture of {} texels",
-                                     weight.size(), growth.texel_count()));
+std::vector<std::size_t> painted_texels(const geometry::CubeAtlas& atlas, std::span<const float> weight,
+                                        std::size_t count, std::uint64_t seed, std::uint32_t fruit) {
     std::vector<double> up_to(weight.size());
     double sum = 0;
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-        sum += static_cast<double>(std::max(weight[i], 0.0F)) * growth.areas_m2()[i];
-        up_to[i] = sum;
-    }
-    if (!(sum > 0 && std::isfinite(sum)))
-        throw InputError("the painted map marks no place on the skin: paint where rot is to begin");
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        up_to[i] = sum += atlas.covered(i) ? std::max(weight[i], 0.0F) : 0.0F;
+    if (!(sum > 0))
+        throw InputError("start.mask has no bright texel on the fruit: paint where it is wounded");
     std::vector<std::size_t> texels;
     for (std::size_t k = 0; k < count; ++k) {
-        const double at = sum * unit_interval(noise_stream(seed, GrowthNoise::Painted, k));
+        const double u = random_uniform4(seed, RandomPurpose::RotWounds, k, fruit)[2];
         // The first whose sum lies above: one whose own weight is not 0.
         texels.push_back(
-            static_cast<std::size_t>(std::upper_bound(up_to.begin(), up_to.end(), at) - up_to.begin()));
+            static_cast<std::size_t>(std::upper_bound(up_to.begin(), up_to.end(), u * sum) - up_to.begin()));
     }
     return texels;
 }

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <set>
+#include <string>
+
 #include "decay/decay_process.h"
 #include "decay/measure.h"
 #include "recipe/process_entry.h"
@@ -33,7 +36,11 @@ Process decay_process() {
     process.doc = "rot a fruit: mold, soft rot, water loss, collapse";
     process.parameters = of_recipe(decay::decay_parameters(), &Recipe::decay);
     process.look = rot_look_of_recipe();
-    for (Parameter<Recipe>& parameter : look_of_recipe()) process.look.push_back(std::move(parameter));
+    // Colours come with the maps; of a picture's own look only this shows on a rotting fruit.
+    const std::set<std::string> shown{"look.gloss", "look.softness",  "look.softness_colour",
+                                      "look.pores", "look.pore_size", "look.pose"};
+    for (Parameter<Recipe>& parameter : look_of_recipe())
+        if (shown.contains(parameter.info.key)) process.look.push_back(std::move(parameter));
     process.measure_columns = {
         {"frame", "frame", 0},
         {"day", "day", 2},

@@ -13,7 +13,7 @@ namespace {
 using geometry::Vec3;
 
 StartingPoint wound(const Vec3& direction, std::size_t organism) {
-    return {0.035 * direction.normalized(), StartKind::Wound, organism, 0.3, 0.003};
+    return {0.035 * direction.normalized(), organism, 0.3, 0.003};
 }
 
 TEST(Colonies, AFungusWaitsForTheRot) {
@@ -134,17 +134,15 @@ TEST(StartingPoints, ArePaintedWhereThePaintIs) {
     std::vector<float> paint(ball.growth.texel_count(), 0);
     for (std::size_t i = 0; i < paint.size(); ++i)
         if (ball.atlas.covered(i) && ball.atlas.texel_direction(i).z() > 0.8) paint[i] = 1;
-    const auto texels = painted_texels(ball.growth, paint, 50, 3);
+    const auto texels = painted_texels(ball.atlas, paint, 50, 3, 0);
     ASSERT_EQ(texels.size(), 50U);
     for (const std::size_t i : texels) EXPECT_GT(paint[i], 0);
     EXPECT_GT(std::vector<std::size_t>(texels).size(), 1U);
     EXPECT_NE(texels.front(), texels.back());
-    EXPECT_EQ(texels, painted_texels(ball.growth, paint, 50, 3));
-    EXPECT_NE(texels, painted_texels(ball.growth, paint, 50, 4));
+    EXPECT_EQ(texels, painted_texels(ball.atlas, paint, 50, 3, 0));
+    EXPECT_NE(texels, painted_texels(ball.atlas, paint, 50, 4, 0));
     std::fill(paint.begin(), paint.end(), 0.0F);
-    EXPECT_THROW(painted_texels(ball.growth, paint, 1, 3), InputError);
-    paint.pop_back();
-    EXPECT_THROW(painted_texels(ball.growth, paint, 1, 3), InputError);
+    EXPECT_THROW(painted_texels(ball.atlas, paint, 1, 3, 0), InputError);
 }
 
 TEST(StartingPoints, ContactsWetTheSkinAroundThem) {

@@ -171,15 +171,16 @@ TEST(RawMaps, FindsFungiBySpeciesAndRefusesSizesThatDiffer) {
     EXPECT_THAT(message_of([&] { RawMaps(frame, "skin", {}); }), HasSubstr("64 x 128"));
 }
 
-TEST(RotLook, ComesBackFromATake) {
-    RotLook look = fruit_rot_look("apple");
-    look.species = "expansum";
-    look.full_rot = 0.25;
-    nlohmann::json json = rot_look_to_json(look);
-    json["look.gloss"] = 0.5;  // of pictures
-    const RotLook back = rot_look_from_json(json);
-    EXPECT_EQ(rot_look_to_json(back), rot_look_to_json(look));
-    EXPECT_NE(rot_look_to_json(RotLook{}), rot_look_to_json(look));
+TEST(RotLook, IsReadFromATake) {
+    nlohmann::json json = {{"rot_look.rot_colour", {0.47, 0.28, 0.12}},
+                           {"rot_look.full_rot", 0.25},
+                           {"rot_look.species", "expansum"},
+                           {"look.gloss", 0.5}};  // of pictures
+    const RotLook look = rot_look_from_json(json);
+    EXPECT_EQ(look.rot_colour, Eigen::Vector3d(0.47, 0.28, 0.12));
+    EXPECT_EQ(look.full_rot, 0.25);
+    EXPECT_EQ(look.species, "expansum");
+    EXPECT_EQ(look.roughness, RotLook{}.roughness);
     json["rot_look.rot_colour"] = {0.1, 2.0, 0.1};
     EXPECT_THAT(message_of([&] { rot_look_from_json(json); }), HasSubstr("rot_look.rot_colour"));
     json["rot_look.rot_colour"] = "brown";
@@ -191,7 +192,8 @@ TEST(RotLook, KnowsMoldsByAnyOfTheirNames) {
     EXPECT_EQ(mold_look("Rhizopus stolonifer").key, "rhizopus");
     EXPECT_EQ(mold_look("pectobacterium-carotovorum").key, "erwinia");
     EXPECT_EQ(mold_look("something new").key, "mold");
-    for (const auto& key : mold_keys()) EXPECT_EQ(mold_look(key).key, key);
+    for (const char* key : {"digitatum", "expansum", "rhizopus", "neofabraea", "botrytis", "erwinia"})
+        EXPECT_EQ(mold_look(key).key, key);
 }
 
 TEST(Dressing, AddsWhatIsMissingOnce) {
