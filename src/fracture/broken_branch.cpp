@@ -60,6 +60,14 @@ void make_branch(const FractureParameters& parameters, BreakEnds& ends, BreakWor
     finish(parameters, ends);
 }
 
+void check_surface(const FractureParameters& parameters) {
+    if (parameters.fracture.end == EndKind::Cut) return;
+    BreakEnds ends;
+    BreakWorkspace workspace;
+    make_break_ends(resolved(parameters), ends, workspace);
+    check_heights(parameters, ends.lowest, ends.highest);
+}
+
 BrokenBranch broken_branch(const FractureParameters& parameters) {
     check(parameters);
     const FractureParameters p = resolved(parameters);

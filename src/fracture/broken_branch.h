@@ -28,6 +28,10 @@ CrackCount make_unplaced(const FractureParameters& parameters, BreakEnds& ends, 
 /// checked.
 void make_branch(const FractureParameters& parameters, BreakEnds& ends, BreakWorkspace& workspace);
 
+/// Throws InputError for what only the broken surface itself shows: one that is flat where a mean height is
+/// asked for, or reaches beyond the branch. Takes as long as making the ends, some milliseconds.
+void check_surface(const FractureParameters& parameters);
+
 /// The whole model with colours. Checks and resolves the parameters itself; throws what `check` throws.
 BrokenBranch broken_branch(const FractureParameters& parameters);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "fracture/broken_branch.h"
 #include "fracture/fracture_process.h"
 #include "fracture/measure.h"
 #include "fracture/plan.h"
@@ -48,7 +49,10 @@ Process fracture_process() {
         {"fibres_bridging", "fibres", 3},
         {"bend_deg", "bend", 1},
     };
-    process.check = [](const Recipe& recipe) { fracture::check(recipe.fracture); };
+    process.check = [](const Recipe& recipe) {
+        fracture::check(recipe.fracture);
+        fracture::check_surface(recipe.fracture);  // before a take is begun
+    };
     process.unit_length_m = [](const Recipe& recipe) { return recipe.fracture.branch.diameter_m / 2; };
     process.plan = plan_fracture;
     process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,

@@ -65,6 +65,9 @@ class WrongInput(CommandLine):
         self.assertIn("branch.taper to at most", self.complaint("fig2", "branch.taper=0.2", "branch.piece_length=90"))
         self.assertIn("branch.bend_deg", self.complaint("fig2", "branch.bend_deg=180", "branch.length=1"))
         self.assertIn("break.end", self.complaint("log-end", "output.motion=breaking"))
+        # What only the made surface shows is found before a take is begun, too.
+        self.assertIn("for a break that is", self.complaint("fig2", "break.mean_height=4", "branch.bend_deg=100",
+                                                            "branch.length=3", "branch.piece_length=3"))
 
     def test_recipe_of_another_process(self):
         self.assertIn("is run with `windfall dry plum`", self.complaint("plum"))
