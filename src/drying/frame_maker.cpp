@@ -25,7 +25,7 @@ struct SolidSums {
 SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
                        const std::vector<Vec3>& nodes) {
     const LayeredMesh& mesh = path.mesh();
-    const DryingField drying = path.drying().at(path.shrinkage());
+    const DryingField drying = path.drying_field();
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);
     SolidSums sums;
