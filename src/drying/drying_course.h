@@ -39,6 +39,8 @@ class DryingCourse {
     virtual std::map<std::string, double> measures(const CourseState& /*state*/) const { return {}; }
     /// Water under each quad of the skin over the fresh flesh's, 0..1; empty: not known.
     virtual std::vector<double> skin_moisture(const CourseState& /*state*/) const { return {}; }
+    /// Shrinkage of the flesh under each quad over the largest that it may reach; empty: that of all flesh.
+    virtual std::vector<double> skin_dryness(const CourseState& /*state*/) const { return {}; }
 };
 
 /// The paper's: one shrinkage for all flesh, which is the parameter.
