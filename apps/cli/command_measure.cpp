@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -22,10 +23,22 @@ std::string plain(const json& value) {
     return value.dump();
 }
 
-void print_table(const json& measures, const std::vector<recipe::MeasureColumn>& columns) {
+/// Those that some frame has a number for: hours are for what dries by the hour.
+std::vector<recipe::MeasureColumn> columns_with_numbers(const json& frames,
+                                                        std::vector<recipe::MeasureColumn> columns) {
+    std::erase_if(columns, [&](const recipe::MeasureColumn& column) {
+        return std::none_of(frames.begin(), frames.end(),
+                            [&](const json& frame) { return frame.contains(column.key); });
+    });
+    return columns;
+}
+
+void print_table(const json& measures, const std::vector<recipe::MeasureColumn>& all_columns) {
+    const json frames = measures.value("frames", json::array());
+    const std::vector<recipe::MeasureColumn> columns = columns_with_numbers(frames, all_columns);
     for (const auto& column : columns) fmt::print("{:>{}}", column.title, column.title.size() + 2);
     fmt::print("\n");
-    for (const json& frame : measures.value("frames", json::array())) {
+    for (const json& frame : frames) {
         for (const auto& column : columns)
             fmt::print("{:>{}}", cell(frame.value(column.key, json()), column.digits),
                        column.title.size() + 2);

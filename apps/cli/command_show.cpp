@@ -60,7 +60,7 @@ void add_show(CLI::App& app) {
         ->type_name("KIND");
     command
         ->add_option("--colour", options->colouring,
-                     "material; or curvature, depth, tissue or height in colours")
+                     "material; or curvature, depth, moisture, tissue or height in colours")
         ->type_name("WHAT");
     command->add_option("--view", options->view, "Of a branch: break (the broken end) or whole")
         ->type_name("VIEW");

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "decay/climate_of.h"
 #include "decay/dressing.h"
 #include "decay/organisms_of.h"
 #include "decay/rotting_pile.h"
@@ -53,7 +52,7 @@ DecayPlan plan(const DecayParameters& parameters) {
     plan.days = static_cast<double>(parameters.output.frames - 1) * parameters.output.hours_per_frame / 24;
     const auto n = static_cast<std::size_t>(parameters.body.skin_cells);
     plan.skin_vertices = (6 * n * n + 2) * static_cast<std::size_t>(parameters.pile.count);
-    const water::Air air = climate_of(parameters.climate).at(0);
+    const water::Air air = water::climate_of(parameters.climate).at(0);
     const double loss_kg_s = water::transpiration_kg_per_s(
         {parameters.water.transpiration_ug_s_m2_pa, water::ball_area_m2(parameters.fruit.mass_kg),
          air.temperature_c, air.temperature_c, air.relative_humidity});

@@ -36,24 +36,6 @@ void add_fruit(Table& table) {
     t.add("porosity", "1", &P::porosity, "how easily rot and mold spread in it (s of eq. 4)", kPercent);
 }
 
-void add_climate(Table& table) {
-    using P = ClimateParameters;
-    ParameterGroup t(table, "climate", &DecayParameters::climate);
-    t.add_choice(
-        "name", &P::name,
-        {"temperate", "tropical", "cold-desert", "hot-desert", "fridge", "constant", "table"},
-        "the air: a named climate, constant as the next two keys say, or the table of the last three");
-    t.add("temperature_c", "C", &P::temperature_c, "of the air, where it is constant",
-          {.minimum = -20, .maximum = 60});
-    t.add("humidity", "1", &P::humidity, "relative humidity of the air, where it is constant", kFraction);
-    t.add("hours", "h", &P::hours,
-          "of the day, rising from 0 to below 24; linear between, every day the same",
-          {.minimum = 0, .below = 24});
-    t.add("temperatures_c", "C", &P::temperatures_c, "of the air at those hours",
-          {.minimum = -20, .maximum = 60});
-    t.add("humidities", "1", &P::humidities, "relative humidities at those hours", kFraction);
-}
-
 void add_water(Table& table) {
     using P = WaterParameters;
     ParameterGroup t(table, "water", &DecayParameters::water);
@@ -161,7 +143,7 @@ Table make_table() {
     table.add("seed", "1", [](auto& p) -> auto& { return p.seed; },
               "of all random numbers; another seed is another fruit of the same kind", {.minimum = 0});
     add_fruit(table);
-    add_climate(table);
+    water::add_climate(table, &DecayParameters::climate);
     add_water(table);
     add_growth(table);
     add_start(table);

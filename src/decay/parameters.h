@@ -6,6 +6,7 @@
 
 #include "core/parameter.h"
 #include "decay/fruit_surfaces.h"
+#include "water/climate_settings.h"
 
 namespace windfall::decay {
 
@@ -19,14 +20,6 @@ struct FruitParameters {
     MeshUvs uvs = MeshUvs::Own;
     double mass_kg = 0.140, water_kg = 0.122;
     double firmness = 40, thickness = 60, porosity = 60;
-};
-
-enum class ClimateName { Temperate, Tropical, ColdDesert, HotDesert, Fridge, Constant, Table };
-
-struct ClimateParameters {
-    ClimateName name = ClimateName::Temperate;
-    double temperature_c = 22, humidity = 0.5;              ///< constant
-    std::vector<double> hours, temperatures_c, humidities;  ///< table: a day and a night
 };
 
 struct WaterParameters {
@@ -85,7 +78,7 @@ struct OutputParameters {
 
 struct DecayParameters {
     FruitParameters fruit;
-    ClimateParameters climate;
+    water::ClimateParameters climate;
     WaterParameters water;
     GrowthParameters growth;
     StartParameters start;

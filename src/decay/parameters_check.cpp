@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "decay/climate_of.h"
 #include "decay/growth_settings.h"
 #include "decay/organisms_of.h"
 #include "decay/parameters.h"
@@ -43,7 +42,7 @@ void check(const DecayParameters& p) {
     const std::vector<std::string> fungi = fungus_names(p.growth);
     if (fungi.size() > 4)
         throw InputError(fmt::format("growth.fungi names {} species; at most 4 share a fruit", fungi.size()));
-    climate_of(p.climate);
+    water::climate_of(p.climate);
     decay::check(organisms_of(p), growth_settings_of(p));
     if (p.start.random == 0 && !p.start.contacts && !p.start.stem && p.start.wounds_m.empty() &&
         p.start.mask.empty())

@@ -69,7 +69,7 @@ std::vector<take::FrameMap> raw_maps(const geometry::CubeAtlas& atlas, const Gro
         const Species& species = growth.organism(o).species;
         const bool fungus = species.kind == OrganismKind::Fungus;
         std::string suffix;
-        if (fungus && fungi > 1) suffix = "_" + species.name.substr(species.name.rfind('-') + 1);
+        if (fungus && fungi > 1) suffix.append("_").append(species.name.substr(species.name.rfind('-') + 1));
         maps.push_back(map_of(texture, mesh, fungus ? "fungus" + suffix : "soft_rot",
                               [&](std::size_t begin, std::size_t end, float* values) {
                                   for (std::size_t i = begin; i < end; ++i)

@@ -11,7 +11,6 @@
 #include "core/random.h"
 #include "decay/body_archive.h"
 #include "decay/bowl_mesh.h"
-#include "decay/climate_of.h"
 #include "decay/starting_points.h"
 
 namespace windfall::decay {
@@ -74,7 +73,7 @@ std::vector<geometry::Vec3> to_double(const std::vector<Eigen::Vector3f>& points
 RottingPile::RottingPile(const DecayParameters& parameters, const Specimen& specimen,
                          const RunContext& context)
     : m_parameters(parameters),
-      m_climate(climate_of(parameters.climate)),
+      m_climate(water::climate_of(parameters.climate)),
       m_atlas(static_cast<int>(parameters.output.texels)) {
     settle(specimen, context);
     start(specimen);

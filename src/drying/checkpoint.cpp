@@ -7,24 +7,28 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 // Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements.
 nlohmann::json to_json(const StepRecord& r) {
-    return {r.shrinkage,    r.depth_rms,         r.elastic_energy, r.viscous_work, r.smallest_volume_ratio,
-            r.newton_steps, r.linear_iterations, r.failures};
+    return {r.parameter,      r.shrinkage,         r.depth_rms,
+            r.elastic_energy, r.viscous_work,      r.smallest_volume_ratio,
+            r.newton_steps,   r.linear_iterations, r.failures};
 }
 
 StepRecord step_record_from(const nlohmann::json& r) {
-    return {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(), r.at(3).get<double>(),
-            r.at(4).get<double>(), r.at(5).get<int>(),    r.at(6).get<int>(),    r.at(7).get<int>()};
+    const auto number = [&r](std::size_t i) { return r.at(i).get<double>(); };
+    const auto count = [&r](std::size_t i) { return r.at(i).get<int>(); };
+    return {number(0), number(1), number(2), number(3), number(4), number(5), count(6), count(7), count(8)};
 }
 
 nlohmann::json head_of(const Checkpoint& checkpoint) {
     nlohmann::json history = nlohmann::json::array();
     for (const StepRecord& record : checkpoint.path.history) history.push_back(to_json(record));
     return {{"version", kVersion},
-            {"shrinkage", checkpoint.path.shrinkage},
+            {"parameter", checkpoint.path.course.parameter},
+            {"shrinkage", checkpoint.path.course.shrinkage},
+            {"course", checkpoint.path.course.values},
             {"next_step", checkpoint.path.next_step},
             {"past_steps", checkpoint.path.past_steps},
             {"displacements", checkpoint.path.displacements.size()},
@@ -36,7 +40,9 @@ nlohmann::json head_of(const Checkpoint& checkpoint) {
 
 Checkpoint from_head(const nlohmann::json& head) {
     Checkpoint checkpoint;
-    checkpoint.path.shrinkage = head.at("shrinkage").get<double>();
+    checkpoint.path.course.parameter = head.at("parameter").get<double>();
+    checkpoint.path.course.shrinkage = head.at("shrinkage").get<double>();
+    checkpoint.path.course.values = head.at("course").get<std::vector<double>>();
     checkpoint.path.next_step = head.at("next_step").get<double>();
     checkpoint.path.past_steps = head.at("past_steps").get<std::vector<double>>();
     for (const auto& record : head.at("history")) checkpoint.path.history.push_back(step_record_from(record));
@@ -73,7 +79,8 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
     return bytes;
 }
 
-Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size) {
+Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size,
+                           std::size_t course_size) {
     std::uint64_t length = 0;
     if (bytes.size() < sizeof(length)) refuse();
     std::memcpy(&length, bytes.data(), sizeof(length));
@@ -88,7 +95,8 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_
         const auto count = head.at("displacements").get<std::size_t>();
         const std::size_t vector_bytes = vector_size * sizeof(double);
         if (count < 1 || count > 3 || bytes.size() != count * vector_bytes ||
-            checkpoint.path.past_steps.size() + 1 != count || checkpoint.frames_done < 0)
+            checkpoint.path.past_steps.size() + 1 != count ||
+            checkpoint.path.course.values.size() != course_size || checkpoint.frames_done < 0)
             refuse();
         for (std::size_t i = 0; i < count; ++i) {
             AlignedArray<double> displacement(vector_size);

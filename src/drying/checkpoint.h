@@ -16,7 +16,9 @@ struct Checkpoint {
 
 std::vector<std::byte> to_bytes(const Checkpoint& checkpoint);
 
-/// Throws InputError where the bytes are not a checkpoint of vectors of `vector_size` numbers.
-Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size);
+/// Throws InputError where the bytes are not a checkpoint of vectors of `vector_size` numbers and a course
+/// that keeps `course_size` of them.
+Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_size,
+                           std::size_t course_size = 0);
 
 }  // namespace windfall::drying

@@ -1,6 +1,7 @@
 #include "drying/drying_field.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace windfall::drying {
 
@@ -21,17 +22,39 @@ RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkagePar
     }
 }
 
+Eigen::Matrix3d RecipeDrying::element(std::size_t quad, int layer, double shrinkage) const {
+    const double own = layer < m_flesh_layers ? shrinkage : shrinkage * m_parameters.skin_fraction;
+    const Eigen::Vector3d stretches(1 - own * m_parameters.radial, 1 - own * m_parameters.meridional,
+                                    1 - own * m_parameters.latitudinal);
+    // Exactly a multiple of the identity where it should be: rounding in the frames must not leak in.
+    if (stretches.x() == stretches.y() && stretches.y() == stretches.z())
+        return stretches.x() * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d& frame = m_frames[quad];
+    return frame * stretches.asDiagonal() * frame.transpose();
+}
+
+double RecipeDrying::shrinkage_for(double volume_ratio) const {
+    const double a = m_parameters.radial;
+    const double b = m_parameters.meridional;
+    const double c = m_parameters.latitudinal;
+    if (a == b && b == c) return (1 - std::cbrt(volume_ratio)) / a;
+    // The product of the stretches falls and is convex: from below Newton's method never oversteps.
+    constexpr int kMostIterations = 50;
+    constexpr double kEnough = 1e-14;
+    double shrinkage = 0;
+    for (int i = 0; i < kMostIterations; ++i) {
+        const double x = 1 - a * shrinkage;
+        const double y = 1 - b * shrinkage;
+        const double z = 1 - c * shrinkage;
+        const double step = (x * y * z - volume_ratio) / (a * y * z + b * x * z + c * x * y);
+        shrinkage += step;
+        if (step < kEnough) break;
+    }
+    return shrinkage;
+}
+
 DryingField RecipeDrying::at(double shrinkage) const {
-    return [this, shrinkage](std::size_t quad, int layer) -> Eigen::Matrix3d {
-        const double own = layer < m_flesh_layers ? shrinkage : shrinkage * m_parameters.skin_fraction;
-        const Eigen::Vector3d stretches(1 - own * m_parameters.radial, 1 - own * m_parameters.meridional,
-                                        1 - own * m_parameters.latitudinal);
-        // Exactly a multiple of the identity where it should be: rounding in the frames must not leak in.
-        if (stretches.x() == stretches.y() && stretches.y() == stretches.z())
-            return stretches.x() * Eigen::Matrix3d::Identity();
-        const Eigen::Matrix3d& frame = m_frames[quad];
-        return frame * stretches.asDiagonal() * frame.transpose();
-    };
+    return [this, shrinkage](std::size_t quad, int layer) { return element(quad, layer, shrinkage); };
 }
 
 }  // namespace windfall::drying

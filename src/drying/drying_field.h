@@ -11,6 +11,10 @@ class RecipeDrying {
   public:
     RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkageParameters& parameters);
     DryingField at(double shrinkage) const;
+    /// Fd of one element at a shrinkage of its own.
+    Eigen::Matrix3d element(std::size_t quad, int layer, double shrinkage) const;
+    /// The shrinkage at which flesh has `volume_ratio` (> 0, <= 1) of its fresh volume: det Fd.
+    double shrinkage_for(double volume_ratio) const;
 
   private:
     ShrinkageParameters m_parameters;

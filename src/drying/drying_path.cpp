@@ -14,6 +14,7 @@ using geometry::Vec3;
 
 // Step control, measured on the base case (docs/drying.md): fewer failures do not pay for smaller steps.
 constexpr double kSmallestStep = 1e-6;
+constexpr double kUnmoved = 1e-9;  // change of shrinkage that is none
 constexpr double kCutAfterFailure = 0.45;
 constexpr double kCutAfterSlow = 0.7;
 constexpr double kGrowthAfterFast = 1.3;
@@ -32,7 +33,16 @@ double norm_of(const AlignedArray<double>& a) {
 }  // namespace
 
 DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters)
-    : m_mesh(std::move(mesh)), m_parameters(parameters), m_drying(m_mesh, parameters.drying) {
+    : DryingPath(std::move(mesh), parameters, nullptr) {}
+
+DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters,
+                       std::unique_ptr<DryingCourse> course)
+    : m_mesh(std::move(mesh)),
+      m_parameters(parameters),
+      m_drying(m_mesh, parameters.drying),
+      m_course(std::move(course)) {
+    if (m_course == nullptr) m_course = std::make_unique<GivenShrinkage>(m_drying);
+    m_state.course = m_course->start();
     m_multigrid = std::make_unique<Multigrid>(m_mesh.brick, m_mesh.layers, kernels(m_mesh.layers));
     m_elasticity =
         std::make_unique<Elasticity>(m_mesh,
@@ -76,7 +86,7 @@ double DryingPath::viscosity() const {
     const SolverParameters& solver = m_parameters.solver;
     const double wrinkled_at = onset();
     if (wrinkled_at < 0) return solver.viscosity;
-    const double progress = (m_state.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
+    const double progress = (m_state.course.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
     return std::lerp(solver.viscosity, solver.late_viscosity, std::clamp(progress, 0.0, 1.0));
 }
 
@@ -99,11 +109,23 @@ AlignedArray<double> DryingPath::predict(double step) const {
     return result;
 }
 
-bool DryingPath::attempt(double step, const RunContext& context) {
+bool DryingPath::attempt(double target, const RunContext& context) {
+    // Of the course's state nothing is kept until the increment is accepted, so a shorter one starts afresh.
+    CourseIncrement increment = m_course->increment(m_state.course, target, m_state.next_step, positions());
+    const double step = increment.change;
     StepRecord& record = m_state.pending;
+    if (step < kUnmoved) {
+        // Nothing has shrunk, so nothing moves: a cool night.
+        const StepRecord last = m_state.history.empty() ? StepRecord{} : m_state.history.back();
+        record = {increment.to.parameter, increment.to.shrinkage,   last.depth_rms,
+                  last.elastic_energy,    last.viscous_work,        last.smallest_volume_ratio,
+                  record.newton_steps,    record.linear_iterations, record.failures};
+        m_state.course = std::move(increment.to);
+        return true;
+    }
     const AlignedArray<double>& start = m_state.displacements.front();
     const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
-    m_elasticity->set_drying(m_drying.at(m_state.shrinkage + step));
+    m_elasticity->set_drying(increment.field);
     AlignedArray<double> displacement = predict(step);
     if (!(m_newton->potential(displacement, damping) < m_newton->potential(start, damping)))
         displacement = start;
@@ -120,46 +142,51 @@ bool DryingPath::attempt(double step, const RunContext& context) {
         ++record.failures;
         return false;
     }
-    record.shrinkage = m_state.shrinkage + step;
+    take(std::move(increment), std::move(displacement), result);
+    return true;
+}
+
+void DryingPath::take(CourseIncrement increment, AlignedArray<double> displacement,
+                      const NewtonResult& result) {
+    StepRecord& record = m_state.pending;
+    record.parameter = increment.to.parameter;
+    record.shrinkage = increment.to.shrinkage;
     record.elastic_energy = result.elastic_energy;
     record.smallest_volume_ratio = result.smallest_volume_ratio;
     // The viscous force c M du/dt works over du: twice the damping's part of the potential.
     record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
                           2 * (result.potential - result.elastic_energy);
-    set_step_after(step, result);
-    m_state.shrinkage += step;
+    set_step_after(increment, result);
+    m_state.course = std::move(increment.to);
     m_state.displacements.insert(m_state.displacements.begin(), std::move(displacement));
-    m_state.past_steps.insert(m_state.past_steps.begin(), step);
+    m_state.past_steps.insert(m_state.past_steps.begin(), increment.change);
     if (m_state.displacements.size() > 3) m_state.displacements.pop_back();
     if (m_state.past_steps.size() > 2) m_state.past_steps.pop_back();
-    return true;
 }
 
-void DryingPath::set_step_after(double step, const NewtonResult& result) {
+void DryingPath::set_step_after(const CourseIncrement& increment, const NewtonResult& result) {
     if (result.newton_steps <= kFastNewton && result.rejections == 0) {
         // A step that was short only because a frame was due says nothing against the longer one.
         const double growth = result.newton_steps <= kFastestNewton ? kGrowthAfterFastest : kGrowthAfterFast;
-        const bool cut_for_frame = step < m_state.next_step;
-        m_state.next_step = std::min(m_parameters.solver.max_step,
-                                     cut_for_frame ? m_state.next_step : growth * m_state.next_step);
+        m_state.next_step =
+            std::min(m_parameters.solver.max_step,
+                     increment.cut_at_target ? m_state.next_step : growth * m_state.next_step);
     } else if (result.newton_steps > kSlowNewton) {
-        m_state.next_step = step * kCutAfterSlow;
+        m_state.next_step = increment.change * kCutAfterSlow;
     }
 }
 
 void DryingPath::advance(double target, const RunContext& context, const std::function<void()>& on_step) {
-    constexpr double kSame = 1e-9;
-    while (m_state.shrinkage < target - kSame) {
+    while (parameter() < target - kSameParameter) {
         context.throw_if_cancelled();
         if (m_state.next_step < kSmallestStep)
             throw LostEquilibrium(fmt::format(
                 "equilibrium was lost at shrinkage {:.4f}: no increment above {} converged. Try a larger "
                 "solver.viscosity (now {}), a larger imperfection.amplitude (now {}), a finer mesh.n, "
                 "or stop at drying.shrinkage = {:.2f}",
-                m_state.shrinkage, kSmallestStep, m_parameters.solver.viscosity,
-                m_parameters.imperfection.amplitude, std::floor(100 * m_state.shrinkage) / 100));
-        if (!attempt(std::min(m_state.next_step, target - m_state.shrinkage), context)) continue;
-        if (target - m_state.shrinkage < kSame) m_state.shrinkage = m_state.pending.shrinkage = target;
+                shrinkage(), kSmallestStep, m_parameters.solver.viscosity,
+                m_parameters.imperfection.amplitude, std::floor(100 * shrinkage()) / 100));
+        if (!attempt(target, context)) continue;
         m_state.pending.depth_rms = root_mean_square_depth();
         m_state.history.push_back(std::exchange(m_state.pending, {}));
         if (on_step) on_step();

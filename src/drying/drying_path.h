@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/run_context.h"
-#include "drying/drying_field.h"
+#include "drying/drying_course.h"
 #include "drying/newton.h"
 #include "geometry/smooth_surface.h"
 
@@ -19,7 +19,8 @@ class LostEquilibrium : public RunError {
 
 /// What is kept of every accepted increment.
 struct StepRecord {
-    double shrinkage = 0;
+    double parameter = 0;       ///< of the course: shrinkage, or hours
+    double shrinkage = 0;       ///< of the flesh as a whole
     double depth_rms = 0;       ///< root mean square of the skin's depth, in r_1
     double elastic_energy = 0;  ///< in C0 of the flesh times r_1^3
     double viscous_work = 0;    ///< done against the stabilisation since the start
@@ -31,9 +32,9 @@ struct StepRecord {
 
 /// Everything that the way ahead depends on; a checkpoint is this and nothing else.
 struct PathState {
-    double shrinkage = 0;
-    double next_step = 0;
-    std::vector<double> past_steps;  ///< sizes of the last increments, latest first; at most 2
+    CourseState course;
+    double next_step = 0;            ///< largest change of an element's shrinkage in the next increment
+    std::vector<double> past_steps;  ///< such changes in the last increments, latest first; at most 2
     std::vector<AlignedArray<double>> displacements;  ///< now, and after the increments before; at most 3
     std::vector<StepRecord> history;
     StepRecord pending;  ///< attempts since the last accepted increment: counts only
@@ -41,17 +42,27 @@ struct PathState {
 
 class DryingPath {
   public:
-    /// `mesh` is the fresh body, imperfection included.
+    /// `mesh` is the fresh body, imperfection included. Dries it by `course`; without one the path's
+    /// parameter is the shrinkage of all flesh.
+    DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters,
+               std::unique_ptr<DryingCourse> course);
     DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters);
 
-    /// Goes on to `target` exactly. Calls `on_step` after each increment. Throws RunError where equilibrium
-    /// is lost: the state is then that of the last equilibrium. Throws Cancelled likewise.
+    /// Goes on until the course's parameter is `target` exactly. Calls `on_step` after each increment. Throws
+    /// RunError where equilibrium is lost: the state is then that of the last equilibrium. Throws Cancelled
+    /// likewise.
     void advance(double target, const RunContext& context, const std::function<void()>& on_step = {});
 
     const PathState& state() const { return m_state; }
     void set_state(PathState state) { m_state = std::move(state); }
 
-    double shrinkage() const { return m_state.shrinkage; }
+    /// Where the course is: shrinkage, or hours.
+    double parameter() const { return m_state.course.parameter; }
+    /// Of the flesh as a whole.
+    double shrinkage() const { return m_state.course.shrinkage; }
+    /// Fd of every element now.
+    DryingField drying_field() const { return m_course->field(m_state.course); }
+    const DryingCourse& course() const { return *m_course; }
     /// Shrinkage at which the skin's depth passed a tenth of its thickness; negative before that.
     double onset() const;
 
@@ -67,8 +78,9 @@ class DryingPath {
     std::vector<double> skin_depth() const;
 
   private:
-    bool attempt(double step, const RunContext& context);
-    void set_step_after(double step, const NewtonResult& result);
+    bool attempt(double target, const RunContext& context);
+    void take(CourseIncrement increment, AlignedArray<double> displacement, const NewtonResult& result);
+    void set_step_after(const CourseIncrement& increment, const NewtonResult& result);
     AlignedArray<double> predict(double step) const;
     double viscosity() const;
     double root_mean_square_depth() const;
@@ -76,6 +88,7 @@ class DryingPath {
     geometry::LayeredMesh m_mesh;
     DryingParameters m_parameters;
     RecipeDrying m_drying;
+    std::unique_ptr<DryingCourse> m_course;
     std::unique_ptr<Multigrid> m_multigrid;
     std::unique_ptr<Elasticity> m_elasticity;
     std::unique_ptr<NewtonSolver> m_newton;

@@ -8,6 +8,7 @@
 #include "drying/checkpoint.h"
 #include "drying/frame_maker.h"
 #include "drying/imperfection.h"
+#include "drying/moisture_course.h"
 #include "drying/specimen.h"
 
 namespace windfall::drying {
@@ -44,14 +45,15 @@ class TimeLeft {
 class Run {
   public:
     Run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-        std::span<const std::byte> checkpoint)
+        std::span<const std::byte> checkpoint, const SkinPaint& paint)
         : m_parameters(parameters),
           m_sink(sink),
           m_context(context),
-          m_frames(frame_shrinkages(parameters)),
-          m_path(fresh_mesh(), parameters) {
+          m_frames(frame_parameters(parameters)),
+          m_path(fresh_path(paint)) {
         if (!checkpoint.empty()) {
-            Checkpoint saved = checkpoint_from(checkpoint, m_path.elasticity().size());
+            Checkpoint saved =
+                checkpoint_from(checkpoint, m_path.elasticity().size(), m_path.state().course.values.size());
             m_frames_done = saved.frames_done;
             m_elapsed_before_s = saved.elapsed_s;
             m_path.set_state(std::move(saved.path));
@@ -77,13 +79,15 @@ class Run {
     }
 
   private:
-    geometry::LayeredMesh fresh_mesh() {
-        m_context.progress({"meshing", 0, m_parameters.drying.shrinkage, -1, ""});
+    DryingPath fresh_path(const SkinPaint& paint) {
+        m_context.progress({"meshing", 0, m_frames.back(), -1, ""});
         check(m_parameters);
         const auto shape = make_shape(m_parameters.fruit);
         geometry::LayeredMesh mesh = make_mesh(m_parameters, *shape);
         add_imperfection(mesh, m_parameters, m_context);
-        return mesh;
+        if (!m_parameters.moisture.on()) return {std::move(mesh), m_parameters};
+        auto course = std::make_unique<MoistureCourse>(mesh, m_parameters, paint);
+        return {std::move(mesh), m_parameters, std::move(course)};
     }
 
     double seconds() const {
@@ -92,9 +96,9 @@ class Run {
 
     void after_step() {
         const StepRecord& step = m_path.state().history.back();
-        const double total = m_parameters.drying.shrinkage;
-        m_context.progress({"drying", step.shrinkage, total,
-                            m_time_left.estimate(step.shrinkage, total, seconds()),
+        const double total = m_frames.back();
+        m_context.progress({"drying", step.parameter, total,
+                            m_time_left.estimate(step.parameter, total, seconds()),
                             fmt::format("shrinkage {:.3f}, depth {:.2f} t_e", step.shrinkage,
                                         step.depth_rms / m_parameters.fruit.skin_thickness)});
         m_context.log(
@@ -119,6 +123,7 @@ class Run {
         int linear = m_path.state().pending.linear_iterations;
         int failures = m_path.state().pending.failures;
         for (const StepRecord& r : m_path.state().history) {
+            if (m_parameters.moisture.on()) history["hours"].push_back(r.parameter);
             history["shrinkage"].push_back(r.shrinkage);
             history["depth_rms_over_te"].push_back(r.depth_rms / thickness);
             history["elastic_energy"].push_back(r.elastic_energy);
@@ -169,8 +174,8 @@ class Run {
 }  // namespace
 
 void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-         std::span<const std::byte> checkpoint) {
-    Run(parameters, sink, context, checkpoint).go();
+         std::span<const std::byte> checkpoint, const SkinPaint& paint) {
+    Run(parameters, sink, context, checkpoint, paint).go();
 }
 
 }  // namespace windfall::drying

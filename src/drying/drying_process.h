@@ -5,6 +5,7 @@
 
 #include "core/run_context.h"
 #include "drying/parameters.h"
+#include "drying/skin_exposure.h"
 #include "take/frame_sink.h"
 
 namespace windfall::drying {
@@ -13,9 +14,10 @@ namespace windfall::drying {
 /// run with the same parameters; empty: from the start) it goes on from there, to the same bits as a run
 /// without interruption. Throws InputError for parameters that cannot be meshed, RunError where equilibrium
 /// is lost (the frames so far have been emitted), Cancelled when the context says so, after a last
-/// checkpoint.
+/// checkpoint. `paint` is the picture
+/// that moisture.map names.
 void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-         std::span<const std::byte> checkpoint = {});
+         std::span<const std::byte> checkpoint = {}, const SkinPaint& paint = {});
 
 /// What `run` will solve, for people and for warnings before a long run.
 struct Plan {

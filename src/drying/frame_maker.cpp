@@ -25,7 +25,7 @@ struct SolidSums {
 SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
                        const std::vector<Vec3>& nodes) {
     const LayeredMesh& mesh = path.mesh();
-    const DryingField drying = path.drying().at(path.shrinkage());
+    const DryingField drying = path.drying_field();
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);
     SolidSums sums;
@@ -61,6 +61,19 @@ SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameter
     return sums;
 }
 
+/// Means of what adjacent quads have.
+std::vector<double> to_vertices(const geometry::BrickSurface& brick, const std::vector<double>& of_quads) {
+    std::vector<double> sums(brick.vertex_count(), 0);
+    std::vector<int> adjacent(brick.vertex_count(), 0);
+    for (std::size_t q = 0; q < of_quads.size(); ++q)
+        for (const std::int32_t vertex : brick.quads[q]) {
+            sums[vertex] += of_quads[q];
+            ++adjacent[vertex];
+        }
+    for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= adjacent[v];
+    return sums;
+}
+
 std::vector<float> to_floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
 }  // namespace
@@ -89,7 +102,7 @@ take::Frame make_frame(const DryingPath& path, const DryingParameters& parameter
 
     take::Frame frame;
     frame.index = index;
-    frame.time = path.shrinkage() / parameters.drying.shrinkage;
+    frame.time = path.parameter() / frame_parameters(parameters).back();
     take::FrameMesh surface;
     surface.name = kSkinMesh;
     for (const Vec3& position : skin) surface.positions.emplace_back(position.cast<float>());
@@ -97,6 +110,11 @@ take::Frame make_frame(const DryingPath& path, const DryingParameters& parameter
     surface.attributes.push_back({"stretch", 1, to_floats(stretch)});
     surface.attributes.push_back({"J", 1, to_floats(sums.volume_ratio)});
     surface.attributes.push_back({"pressure", 1, to_floats(sums.pressure)});
+    if (const std::vector<double> moisture = path.course().skin_moisture(path.state().course);
+        !moisture.empty())
+        surface.attributes.push_back({"moisture", 1, to_floats(to_vertices(mesh.brick, moisture))});
+    if (const std::vector<double> dryness = path.course().skin_dryness(path.state().course); !dryness.empty())
+        surface.attributes.push_back({"dryness", 1, to_floats(to_vertices(mesh.brick, dryness))});
     frame.meshes.push_back(std::move(surface));
 
     const StepRecord last = path.state().history.empty() ? StepRecord{} : path.state().history.back();
@@ -115,6 +133,7 @@ take::Frame make_frame(const DryingPath& path, const DryingParameters& parameter
         {"viscous_work", last.viscous_work},
         {"viscous_over_elastic", last.elastic_energy > 0 ? last.viscous_work / last.elastic_energy : 0},
     };
+    frame.scalars.merge(path.course().measures(path.state().course));
     return frame;
 }
 

@@ -13,7 +13,9 @@ take::TakeMesh skin_mesh(const geometry::LayeredMesh& mesh);
 
 /// The frame of the path's present state. Attributes on the skin's vertices: `depth` below the smooth surface
 /// (r_1), `stretch` (square root of the area over the fresh area), `J` (elastic volume ratio, mean of the
-/// adjacent elements) and `pressure` (likewise, in C0 of the flesh). Scalars: see docs/measures.md.
+/// adjacent elements) and `pressure` (likewise, in C0 of the flesh); by the hour also `moisture` (water under
+/// the skin over the fresh flesh's) and `dryness` (shrinkage there over the largest). Scalars: see
+/// docs/measures.md.
 take::Frame make_frame(const DryingPath& path, const DryingParameters& parameters, int index);
 
 }  // namespace windfall::drying

@@ -51,7 +51,7 @@ void add_physics(Table& t) {
           {.minimum = 5, .maximum = 1e4});
     t.add("drying.shrinkage", "1", [](auto& p) -> auto& { return p.drying.shrinkage; },
           "linear shrinkage of the flesh, 1 - theta, at the end; the flesh keeps (1 - shrinkage)^3 of its "
-          "volume",
+          "volume. With moisture.hours the most that any flesh shrinks",
           {.minimum = 0.001, .below = 1});
     t.add("drying.skin_fraction", "1", [](auto& p) -> auto& { return p.drying.skin_fraction; },
           "shrinkage of the skin as a fraction of the flesh's; 1: no wrinkles", {.minimum = 0, .maximum = 1});
@@ -119,13 +119,19 @@ Table make_table() {
           {.minimum = 0, .maximum = 9007199254740992.0});
     add_fruit(t);
     add_physics(t);
+    add_moisture(t);
     add_numerics(t);
     t.add("output.frames", "1", [](auto& p) -> auto& { return p.output.frames; },
-          "number of frames at even shrinkages, the fresh fruit being the first",
+          "number of frames at even shrinkages or hours, the fresh fruit being the first",
           {.minimum = 2, .maximum = 10000});
     t.add("output.shrinkages", "1", [](auto& p) -> auto& { return p.output.shrinkages; },
           "shrinkages of the frames, instead of output.frames; the fresh fruit and the end are always taken",
           {.minimum = 0, .below = 1});
+    t.add(
+        "output.hours", "h", [](auto& p) -> auto& { return p.output.hours; },
+        "hours of the frames, where moisture.hours is set, instead of output.frames; the fresh fruit and the "
+        "end are always taken",
+        {.minimum = 0});
     return t;
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/parameter.h"
+#include "drying/moisture_parameters.h"
+#include "water/climate_settings.h"
 
 namespace windfall::drying {
 
@@ -59,6 +61,7 @@ struct SolverParameters {
 struct OutputParameters {
     std::int64_t frames = 7;
     std::vector<double> shrinkages;
+    std::vector<double> hours;
 };
 
 struct DryingParameters {
@@ -66,6 +69,8 @@ struct DryingParameters {
     FruitParameters fruit;
     MaterialParameters material;
     ShrinkageParameters drying;
+    MoistureParameters moisture;
+    water::ClimateParameters climate;
     MeshParameters mesh;
     ImperfectionParameters imperfection;
     SolverParameters solver;
@@ -81,5 +86,8 @@ void check(const DryingParameters& parameters);
 
 /// The shrinkages at which frames are taken, rising, the first 0 and the last `drying.shrinkage`.
 std::vector<double> frame_shrinkages(const DryingParameters& parameters);
+
+/// The path's parameters at which frames are taken: hours where the fruit dries by the hour, else shrinkages.
+std::vector<double> frame_parameters(const DryingParameters& parameters);
 
 }  // namespace windfall::drying

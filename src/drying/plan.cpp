@@ -44,23 +44,35 @@ void check(const DryingParameters& p) {
                 fmt::format("output.shrinkages holds {}, beyond the end of the drying: raise "
                             "drying.shrinkage (now {}) or take it out",
                             shrinkage, p.drying.shrinkage));
+    check_moisture(p);
     make_shape(p.fruit);
 }
 
-std::vector<double> frame_shrinkages(const DryingParameters& p) {
-    std::vector<double> result;
-    if (p.output.shrinkages.empty()) {
-        for (std::int64_t i = 0; i < p.output.frames; ++i)
-            result.push_back(p.drying.shrinkage * static_cast<double>(i) /
-                             static_cast<double>(p.output.frames - 1));
-        return result;
+namespace {
+
+/// `listed`, 0 and `end`, rising; with nothing listed, `count` even ones.
+std::vector<double> frame_stops(std::vector<double> listed, std::int64_t count, double end) {
+    if (listed.empty()) {
+        for (std::int64_t i = 0; i < count; ++i)
+            listed.push_back(end * static_cast<double>(i) / static_cast<double>(count - 1));
+        return listed;
     }
-    result = p.output.shrinkages;
-    result.push_back(0);
-    result.push_back(p.drying.shrinkage);
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
+    listed.push_back(0);
+    listed.push_back(end);
+    std::sort(listed.begin(), listed.end());
+    listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+    return listed;
+}
+
+}  // namespace
+
+std::vector<double> frame_shrinkages(const DryingParameters& p) {
+    return frame_stops(p.output.shrinkages, p.output.frames, p.drying.shrinkage);
+}
+
+std::vector<double> frame_parameters(const DryingParameters& p) {
+    return p.moisture.on() ? frame_stops(p.output.hours, p.output.frames, p.moisture.hours)
+                           : frame_shrinkages(p);
 }
 
 Plan plan(const DryingParameters& parameters) {

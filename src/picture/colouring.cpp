@@ -85,7 +85,8 @@ Colouring colouring_named(const std::string& name) {
 }
 
 const std::vector<std::string>& colouring_names() {
-    static const std::vector<std::string> names{"material", "curvature", "depth", "tissue", "height"};
+    static const std::vector<std::string> names{"material", "curvature", "depth",
+                                                "tissue",   "height",    "moisture"};
     return names;
 }
 
@@ -141,12 +142,15 @@ std::vector<double> shown_values(Colouring colouring, const take::TakeMesh& mesh
             return attribute_values("tissue", mesh, moved);
         case Colouring::Height:
             return attribute_values("height", mesh, moved);
+        case Colouring::Moisture:
+            return attribute_values("moisture", mesh, moved);
     }
     return {};
 }
 
 ColourRange colour_range(Colouring colouring, std::span<const std::vector<double>> sets) {
     if (colouring == Colouring::Tissue) return {0, static_cast<double>(kTissueColours.size() - 1)};
+    if (colouring == Colouring::Moisture) return {1, 0};
     if (colouring != Colouring::Height) {
         const double magnitude = robust_magnitude(sets, kFalseColourFraction);
         return {-magnitude, magnitude};
@@ -164,6 +168,7 @@ std::array<float, 3> shown_colour(Colouring colouring, double value, const Colou
         case Colouring::Tissue:
             return colour_between(kTissueColours, t);
         case Colouring::Height:
+        case Colouring::Moisture:
             return sequential_colour(t);
         default:
             return diverging_colour(2 * t - 1);

@@ -12,10 +12,10 @@ namespace windfall::picture {
 
 /// What the surface shows. Curvature: mean curvature, red convex, blue concave. Depth: red ridges, blue
 /// valleys. Tissue: pith, heartwood, sapwood, phloem and bark, a colour each. Height: along the branch, from
-/// dark blue to yellow.
-enum class Colouring { Material, Curvature, Depth, Tissue, Height };
+/// dark blue to yellow. Moisture: under the skin, from none (yellow) to the fresh fruit's (dark blue).
+enum class Colouring { Material, Curvature, Depth, Tissue, Height, Moisture };
 
-/// "material", "curvature", "depth", "tissue", "height"; InputError for any other name.
+/// "material", "curvature", "depth", "tissue", "height", "moisture"; InputError for any other name.
 Colouring colouring_named(const std::string& name);
 const std::vector<std::string>& colouring_names();
 
@@ -29,8 +29,8 @@ std::vector<double> mean_curvature(const std::vector<geometry::Vec3>& positions,
 double robust_magnitude(std::span<const std::vector<double>> sets, double fraction);
 
 /// The values that a colouring shows at the vertices of a mesh: mean curvature; the attribute "depth" with
-/// its sign turned, so that ridges are positive as they are in curvature; "tissue"; "height". Empty for the
-/// material. Throws InputError when the mesh has no such attribute.
+/// its sign turned, so that ridges are positive as they are in curvature; "tissue"; "height"; "moisture".
+/// Empty for the material. Throws InputError when the mesh has no such attribute.
 std::vector<double> shown_values(Colouring colouring, const take::TakeMesh& mesh,
                                  const take::FrameMesh& moved);
 

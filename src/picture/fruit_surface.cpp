@@ -63,17 +63,17 @@ FruitSurface::FruitSurface(const take::TakeMesh& mesh, double radius, double pic
       m_refinement(mesh.rest.faces, mesh.rest.positions.size(), m_levels) {}
 
 Channels FruitSurface::refined(const take::FrameMesh& moved, const Eigen::Matrix3f& pose,
-                               const std::function<float(std::size_t)>& value) const {
+                               const std::function<Eigen::Vector2f(std::size_t)>& values) const {
     const std::size_t count = m_mesh.rest.positions.size();
     if (moved.positions.size() != count)
         throw InputError(fmt::format("mesh \"{}\" has {} vertices in the frame and {} in the take",
                                      m_mesh.name, moved.positions.size(), count));
-    Channels coarse(static_cast<Eigen::Index>(count), 7);
+    Channels coarse(static_cast<Eigen::Index>(count), 8);
     for (std::size_t v = 0; v < count; ++v) {
         const auto row = static_cast<Eigen::Index>(v);
         coarse.block<1, 3>(row, 0) = (pose * moved.positions[v]).transpose();
         coarse.block<1, 3>(row, 3) = m_mesh.rest.positions[v].cast<float>().transpose();
-        coarse(row, 6) = value(v);
+        coarse.block<1, 2>(row, 6) = values(v).transpose();
     }
     if (!coarse.allFinite())
         throw InputError(fmt::format("mesh \"{}\" has positions that are no numbers", m_mesh.name));
@@ -82,18 +82,24 @@ Channels FruitSurface::refined(const take::FrameMesh& moved, const Eigen::Matrix
 
 SceneMesh FruitSurface::scene_mesh(const take::FrameMesh& moved, const Look& look,
                                    const Eigen::Matrix3f& pose, double dryness) const {
-    const take::Attribute* depth = moved.find("depth");
-    if (depth != nullptr && depth->values.size() != moved.positions.size()) depth = nullptr;
+    const auto attribute_or = [&](const char* name, double otherwise) {
+        const take::Attribute* found = moved.find(name);
+        const bool fits = found != nullptr && found->values.size() == moved.positions.size();
+        return fits ? found->values
+                    : std::vector<float>(moved.positions.size(), static_cast<float>(otherwise));
+    };
+    const std::vector<float> depths = attribute_or("depth", 0);
+    const std::vector<float> drynesses = attribute_or("dryness", dryness);
     const Channels fine =
-        refined(moved, pose, [&](std::size_t v) { return depth != nullptr ? depth->values[v] : 0.0F; });
+        refined(moved, pose, [&](std::size_t v) { return Eigen::Vector2f(depths[v], drynesses[v]); });
     SceneMesh result = bare_mesh(fine, m_refinement);
     const auto radius = static_cast<float>(m_radius);
     std::vector<SkinPoint> skin(static_cast<std::size_t>(fine.rows()));
     for (Eigen::Index row = 0; row < fine.rows(); ++row)
         skin[static_cast<std::size_t>(row)] = {fine.block<1, 3>(row, 3).transpose() / radius,
-                                               fine(row, 6) / radius};
-    result.albedo = skin_colours(look, skin, dryness);
-    roughen_normals(look, skin, dryness, result.normals);
+                                               fine(row, 6) / radius, fine(row, 7)};
+    result.albedo = skin_colours(look, skin);
+    roughen_normals(look, skin, result.normals);
     add_finish(result, look, radius, fine);
     return result;
 }
@@ -101,7 +107,7 @@ SceneMesh FruitSurface::scene_mesh(const take::FrameMesh& moved, const Look& loo
 SceneMesh FruitSurface::textured_mesh(const take::FrameMesh& moved, const Look& look,
                                       const Eigen::Matrix3f& pose,
                                       std::shared_ptr<const SurfaceTexture> texture) const {
-    const Channels fine = refined(moved, pose, [](std::size_t) { return 0.0F; });
+    const Channels fine = refined(moved, pose, [](std::size_t) { return Eigen::Vector2f(0, 0); });
     SceneMesh result = bare_mesh(fine, m_refinement);
     result.texture = std::move(texture);
     result.quad_uvs = refined_corners(m_mesh.rest.faces, m_mesh.rest.corner_uvs, m_levels);
@@ -112,7 +118,8 @@ SceneMesh FruitSurface::textured_mesh(const take::FrameMesh& moved, const Look& 
 SceneMesh FruitSurface::diagram_mesh(const take::FrameMesh& moved, Colouring colouring,
                                      const ColourRange& range, const Eigen::Matrix3f& pose) const {
     const std::vector<double> shown = shown_values(colouring, m_mesh, moved);
-    const Channels fine = refined(moved, pose, [&](std::size_t v) { return static_cast<float>(shown[v]); });
+    const Channels fine =
+        refined(moved, pose, [&](std::size_t v) { return Eigen::Vector2f(static_cast<float>(shown[v]), 0); });
     SceneMesh result = bare_mesh(fine, m_refinement);
     for (Eigen::Index row = 0; row < fine.rows(); ++row) {
         const auto colour = shown_colour(colouring, static_cast<double>(fine(row, 6)), range);

@@ -22,8 +22,9 @@ class FruitSurface {
 
     const std::string& name() const { return m_mesh.name; }
 
-    /// `dryness` 0 .. 1 goes from the fresh to the dry colour. Throws InputError when the frame's vertices
-    /// are not those of the mesh, are no numbers, or have not what the colouring shows.
+    /// `dryness` 0 .. 1 goes from the fresh to the dry colour, where the vertices have no attribute "dryness"
+    /// of their own. Throws InputError when the frame's vertices are not those of the mesh, are no numbers,
+    /// or have not what the colouring shows.
     SceneMesh scene_mesh(const take::FrameMesh& moved, const Look& look, const Eigen::Matrix3f& pose,
                          double dryness) const;
     /// With the shading maps of a frame in place of the look's colours (decay); `texture` must have a
@@ -34,9 +35,9 @@ class FruitSurface {
                            const Eigen::Matrix3f& pose) const;
 
   private:
-    /// Positions, fresh positions and `values`, refined.
+    /// Positions, fresh positions and two values of each vertex, refined.
     Channels refined(const take::FrameMesh& moved, const Eigen::Matrix3f& pose,
-                     const std::function<float(std::size_t)>& value) const;
+                     const std::function<Eigen::Vector2f(std::size_t)>& values) const;
 
     take::TakeMesh m_mesh;
     double m_radius;

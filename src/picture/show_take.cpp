@@ -74,6 +74,8 @@ std::string title_of(const take::TakeInfo& info, Colouring colouring) {
             return name + " \u2013 pith violet, heartwood red, sapwood yellow, phloem green, bark grey";
         case Colouring::Height:
             return name + " \u2013 height along the branch: low blue, high yellow";
+        case Colouring::Moisture:
+            return name + " \u2013 water under the skin: fresh blue, dry yellow";
     }
     return name;
 }

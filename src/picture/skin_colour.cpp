@@ -29,9 +29,9 @@ Vec3f linear_colour(const std::vector<double>& srgb) {
             linear_from_srgb(static_cast<float>(srgb.at(2)))};
 }
 
-std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& points, double dryness) {
-    const auto dry = static_cast<float>(std::clamp(dryness, 0.0, 1.0));
-    const Vec3f base = mixed(linear_colour(look.fresh_colour), linear_colour(look.dry_colour), dry);
+std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& points) {
+    const Vec3f fresh_colour = linear_colour(look.fresh_colour);
+    const Vec3f dry_colour = linear_colour(look.dry_colour);
     const Vec3f valley_colour = linear_colour(look.valley_colour);
     const Vec3f bloom_colour = linear_colour(look.bloom_colour);
     const auto valley_depth = static_cast<float>(look.valley_depth);
@@ -44,6 +44,7 @@ std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& 
             const auto strength = static_cast<float>(look.mottle);
             const float patch = strength > 0 ? mottle_noise(place, kMottleSeed) : 0;
             const float hue = strength > 0 ? mottle_noise(1.7F * place, kHueSeed) : 0;
+            const Vec3f base = mixed(fresh_colour, dry_colour, std::clamp(points[i].dryness, 0.0F, 1.0F));
             // lighter patches turn towards yellow, darker ones towards red
             Vec3f colour = base * std::max(0.1F, 1 + 3.0F * strength * patch);
             colour.y() *= std::max(0.1F, 1 + 2.5F * strength * hue);
@@ -64,15 +65,14 @@ std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& 
     return colours;
 }
 
-void roughen_normals(const Look& look, const std::vector<SkinPoint>& points, double dryness,
-                     std::vector<Vec3f>& normals) {
+void roughen_normals(const Look& look, const std::vector<SkinPoint>& points, std::vector<Vec3f>& normals) {
     if (look.grain <= 0) return;
     constexpr float kSteepest = 0.35F;  // slope of the unevenness at look.grain = 1
     constexpr float kStep = 0.05F;      // of the finite difference, in wave lengths
-    const auto strength =
-        static_cast<float>(look.grain * (0.25 + 0.75 * std::clamp(dryness, 0.0, 1.0))) * kSteepest;
     parallel_blocks(points.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            const auto dryness = std::clamp(static_cast<double>(points[i].dryness), 0.0, 1.0);
+            const auto strength = static_cast<float>(look.grain * (0.25 + 0.75 * dryness)) * kSteepest;
             const Vec3f place = points[i].fresh_place / static_cast<float>(look.grain_scale);
             const float here = smooth_noise(place, kGrainSeed);
             Vec3f slope;

@@ -14,14 +14,13 @@ Vec3f linear_colour(const std::vector<double>& srgb);
 struct SkinPoint {
     Vec3f fresh_place;  ///< in the fresh fruit: patches stick to the skin while it moves
     float depth = 0;    ///< below the smooth surface; negative on ridges
+    float dryness = 0;  ///< 0 .. 1: from the fresh to the dry colour
 };
 
-/// `dryness` 0 .. 1 goes from the fresh to the dry colour.
-std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& points, double dryness);
+std::vector<Vec3f> skin_colours(const Look& look, const std::vector<SkinPoint>& points);
 
 /// Tilts unit normals as the fine unevenness of the skin would; a fresh skin is four times as even as a dry
 /// one.
-void roughen_normals(const Look& look, const std::vector<SkinPoint>& points, double dryness,
-                     std::vector<Vec3f>& normals);
+void roughen_normals(const Look& look, const std::vector<SkinPoint>& points, std::vector<Vec3f>& normals);
 
 }  // namespace windfall::picture

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "drying/drying_process.h"
 #include "drying/measure.h"
+#include "recipe/painted_mask.h"
 #include "recipe/process_entry.h"
 
 namespace windfall::recipe {
@@ -16,8 +19,15 @@ RunPlan plan_drying(const Recipe& recipe) {
          {"wave length",
           fmt::format("about {:.3g} r_1, {:.3g} t_e; {:.3g} elements a wave", plan.expected_wave_length,
                       plan.expected_wave_length / te, plan.elements_per_wave)},
-         {"frames", fmt::format("{}", drying::frame_shrinkages(recipe.drying).size())}},
+         {"frames", fmt::format("{}", drying::frame_parameters(recipe.drying).size())}},
         plan.warnings};
+}
+
+drying::SkinPaint paint_of(const Recipe& recipe) {
+    const drying::MoistureParameters& moisture = recipe.drying.moisture;
+    if (!moisture.on() || moisture.map.empty()) return {};
+    const auto mask = std::make_shared<const PaintedMask>("moisture.map", moisture.map);
+    return [mask](const geometry::Vec2& uv) { return static_cast<double>(mask->at(uv)); };
 }
 
 }  // namespace
@@ -32,6 +42,8 @@ Process drying_process() {
     process.measure_columns = {
         {"frame", "frame", 0},
         {"time", "time", 3},
+        {"hours", "hours", 1},
+        {"water_lost_percent", "water lost/%", 2},
         {"shrinkage", "shrinkage", 4},
         {"flesh_volume_ratio", "flesh volume", 4},
         {"total_volume_ratio", "total volume", 4},
@@ -40,12 +52,16 @@ Process drying_process() {
         {"valleys", "valleys", 0},
         {"ridge_meridian_alignment", "alignment", 3},
     };
-    process.check = [](const Recipe& recipe) { drying::check(recipe.drying); };
+    process.check = [](const Recipe& recipe) {
+        drying::check(recipe.drying);
+        // A file that cannot be read is told of before a take is begun.
+        paint_of(recipe);
+    };
     process.unit_length_m = [](const Recipe& recipe) { return recipe.drying.fruit.size_m; };
     process.plan = plan_drying;
     process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,
                      std::span<const std::byte> checkpoint) {
-        drying::run(recipe.drying, sink, context, checkpoint);
+        drying::run(recipe.drying, sink, context, checkpoint, paint_of(recipe));
     };
     process.measure = drying::measure;
     return process;

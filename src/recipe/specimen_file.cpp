@@ -12,44 +12,11 @@
 #include "geometry/uv_check.h"
 #include "geometry/uv_raster.h"
 #include "meshfile/mesh_file.h"
-#include "picture/image.h"
 #include "recipe/mesh_surface.h"
-#include "take/whole_file.h"
+#include "recipe/painted_mask.h"
 
 namespace windfall::recipe {
 namespace {
-
-constexpr std::uint64_t kLargestMask = std::uint64_t{1} << 28U;
-
-/// Brightness 0..1 of a square picture over texture coordinates (v up).
-class Mask {
-  public:
-    explicit Mask(const std::filesystem::path& file) {
-        try {
-            m_image = picture::decode_png(take::read_whole_file(file, kLargestMask));
-        } catch (const std::exception& error) {
-            throw InputError(fmt::format("start.mask {}: {}", file.string(), error.what()));
-        }
-        if (m_image.width != m_image.height || m_image.width < 1)
-            throw InputError(fmt::format("start.mask {} has {} x {} pixels; it must be square", file.string(),
-                                         m_image.width, m_image.height));
-    }
-
-    float at(const geometry::Vec2& uv) const {
-        const auto pixel = [size = m_image.width](double x) {
-            return static_cast<std::size_t>(std::clamp(static_cast<int>(x * size), 0, size - 1));
-        };
-        const std::size_t first =
-            3 * (pixel(1 - uv.y()) * static_cast<std::size_t>(m_image.width) + pixel(uv.x()));
-        // Rec. 709
-        return (0.2126F * m_image.bytes[first] + 0.7152F * m_image.bytes[first + 1] +
-                0.0722F * m_image.bytes[first + 2]) /
-               255;
-    }
-
-  private:
-    picture::Image8 m_image;
-};
 
 /// Where a direction lies in the texture of the specimen.
 geometry::Vec2 texture_place(const decay::Specimen& specimen, const geometry::CubeAtlas& atlas,
@@ -66,7 +33,7 @@ geometry::Vec2 texture_place(const decay::Specimen& specimen, const geometry::Cu
 }
 
 std::vector<float> mask_of(const decay::Specimen& specimen, const decay::DecayParameters& parameters) {
-    const Mask picture(parameters.start.mask);
+    const PaintedMask picture("start.mask", parameters.start.mask);
     const geometry::CubeAtlas atlas(static_cast<int>(parameters.output.texels));
     std::vector<float> mask(atlas.texel_count(), 0);
     for (std::size_t i = 0; i < mask.size(); ++i)

@@ -4,6 +4,7 @@
 Needs the built program in the environment variable WINDFALL_BINARY. Tests of classes whose name ends in "Runs" solve a
 (tiny) drying problem; the others only need the recipe and the command line.
 """
+import base64
 import json
 import os
 import pathlib
@@ -16,7 +17,7 @@ import unittest
 from command_line import BINARY, CommandLine
 
 PRESETS = {
-    "dry": ["jujube", "jujube-plump", "plum", "plum-round", "raisin", "sphere", "wolfberry"],
+    "dry": ["jujube", "jujube-plump", "plum", "plum-round", "raisin", "raisin-sun", "sphere", "wolfberry"],
     "snap": ["ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17", "fig18", "fig19", "fig2",
              "goldenrain", "green-branch", "log-end", "log-end-pine", "storm"],
 }
@@ -24,6 +25,10 @@ PRESETS = {
 # A fruit that dries in seconds: coarse mesh, skin thick enough for it, little shrinkage.
 TINY_SETTINGS = ["mesh.n=8", "fruit.skin_thickness=0.15", "drying.shrinkage=0.1", "output.frames=3"]
 TINY = ["sphere"] + [part for setting in TINY_SETTINGS for part in ("--set", setting)]
+
+
+# Two white pixels by two.
+WHITE_PNG = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAADklEQVR42mP4DwYMEAoAU7oL9YXEbhEAAAAASUVORK5CYII=")
 
 
 class Texts(CommandLine):
@@ -238,6 +243,29 @@ class TinyRuns(CommandLine):
         self.assertEqual(len([name for name in self.frames("sphere-seed5.take") if name.startswith("frames")]), 3)
         self.assertEqual(self.succeed("dry", "sphere-seed5.take/recipe.toml", "--dry-run"),
                          self.succeed("dry", *TINY, "--seed", 5, "--dry-run"))
+
+    def test_drying_by_the_hour(self):
+        # The paint is a file beside the recipe.
+        (self.folder / "paint.png").write_bytes(WHITE_PNG)
+        (self.folder / "sun.toml").write_text(
+            'preset = "raisin-sun"\n[mesh]\nn = 8\n[fruit]\nskin_thickness = 0.15\n'
+            '[moisture]\nhours = 30\nmap = "paint.png"\n[output]\nhours = [10.0, 20.0]\n')
+        self.succeed("dry", "sun.toml", "--no-pictures", "-o", "whole.take")
+        frames = json.loads(self.succeed("measure", "whole.take", "--json"))["frames"]
+        self.assertEqual([frame["hours"] for frame in frames], [0, 10, 20, 30])
+        start = frames[0]["water_left_g"] + frames[0]["solids_g"]
+        for before, after in zip(frames, frames[1:]):
+            self.assertGreater(after["water_lost_g"], before["water_lost_g"])
+            self.assertGreater(after["shrinkage"], before["shrinkage"])
+            self.assertLess(after["moisture_min"], after["moisture_max"])
+            self.assertAlmostEqual((after["water_lost_g"] + after["water_left_g"] + after["solids_g"]) / start, 1,
+                                   delta=1e-9)
+        self.assertIn("water lost", self.succeed("measure", "whole.take"))
+        self.succeed("dry", "sun.toml", "--no-pictures", "-o", "one.take", "--threads", 1)
+        self.assertEqual(self.frames("one.take"), self.frames("whole.take"))
+        self.succeed("show", "whole.take", "--kind", "frame", "--colour", "moisture", "--size", 64, "--samples", 1)
+        self.assertIn("moisture.map", self.fail_with(2, "dry", "sun.toml", "--set", "moisture.map=gone.png"))
+        self.assertIn("climate.humidity", self.fail_with(2, "dry", "sun.toml", "--set", "climate.humidity=1.4"))
 
     def test_existing_take(self):
         self.dry("-o", "x.take")

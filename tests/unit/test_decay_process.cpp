@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "decay/climate_of.h"
 #include "decay/decay_process.h"
 #include "decay/organisms_of.h"
 #include "decay/rotting_pile.h"
@@ -120,7 +119,7 @@ TEST(DecayProcess, CancelSavesAndThrows) {
 TEST(DecayProcess, ColdAndDryKeepIt) {
     DecayParameters p = small_orange();
     const double warm = rotted(p).frames.back().scalars.at("mold_m2");
-    p.climate.name = ClimateName::Fridge;
+    p.climate.name = water::ClimateName::Fridge;
     const double cold = rotted(p).frames.back().scalars.at("rot_m2");
     EXPECT_GT(warm, 0);
     EXPECT_LT(cold, 0.5 * rotted(small_orange()).frames.back().scalars.at("rot_m2"));
@@ -186,7 +185,7 @@ TEST(DecayParameters, MistakesAreNamed) {
     EXPECT_THAT(complaint([](auto& p) { p.growth.fungi = "erwinia"; }), HasSubstr("soft rot"));
     EXPECT_THAT(complaint([](auto& p) { p.growth.fungi = "penicilium-digitatum"; }),
                 HasSubstr("penicillium-digitatum"));
-    EXPECT_THAT(complaint([](auto& p) { p.climate.name = ClimateName::Table; }), HasSubstr("climate.hours"));
+    EXPECT_THAT(complaint([](auto& p) { p.climate.name = water::ClimateName::Table; }), HasSubstr("climate.hours"));
     EXPECT_THAT(complaint([](auto& p) { p.output.texels = 101; }), HasSubstr("even"));
     EXPECT_THAT(complaint([](auto& p) {
                     p.start.random = 0;

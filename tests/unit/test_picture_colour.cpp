@@ -118,12 +118,12 @@ TEST(PictureColour, ValleysAreDarkerAndRidgesCarryTheBloom) {
     Look look;
     look.mottle = 0;
     look.bloom = 0.5;
-    const auto colours = skin_colours(look, {{Vec3f(1, 0, 0), -0.05F}, {Vec3f(1, 0, 0), 0.06F}}, 1);
+    const auto colours = skin_colours(look, {{Vec3f(1, 0, 0), -0.05F, 1}, {Vec3f(1, 0, 0), 0.06F, 1}});
     EXPECT_GT(colours[0].sum(), 2 * colours[1].sum());
     look.valley = look.bloom = 0;
-    const auto plain = skin_colours(look, {{Vec3f(1, 0, 0), 0}}, 1);
+    const auto plain = skin_colours(look, {{Vec3f(1, 0, 0), 0, 1}});
     EXPECT_LT((plain[0] - linear_colour(look.dry_colour)).norm(), 1e-6F);
-    const auto fresh = skin_colours(look, {{Vec3f(1, 0, 0), 0}}, 0);
+    const auto fresh = skin_colours(look, {{Vec3f(1, 0, 0), 0, 0}});
     EXPECT_LT((fresh[0] - linear_colour(look.fresh_colour)).norm(), 1e-6F);
 }
 

@@ -1,25 +1,25 @@
-#include "decay/climate_of.h"
+#include "water/climate_settings.h"
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 
-namespace windfall::decay {
+namespace windfall::water {
 
-water::Climate climate_of(const ClimateParameters& parameters) {
+Climate climate_of(const ClimateParameters& parameters) {
     switch (parameters.name) {
         case ClimateName::Temperate:
-            return water::named_climate("temperate");
+            return named_climate("temperate");
         case ClimateName::Tropical:
-            return water::named_climate("tropical");
+            return named_climate("tropical");
         case ClimateName::ColdDesert:
-            return water::named_climate("cold-desert");
+            return named_climate("cold-desert");
         case ClimateName::HotDesert:
-            return water::named_climate("hot-desert");
+            return named_climate("hot-desert");
         case ClimateName::Fridge:
-            return water::named_climate("fridge");
+            return named_climate("fridge");
         case ClimateName::Constant:
-            return water::constant_climate(parameters.temperature_c, parameters.humidity);
+            return constant_climate(parameters.temperature_c, parameters.humidity);
         case ClimateName::Table:
             break;
     }
@@ -29,10 +29,10 @@ water::Climate climate_of(const ClimateParameters& parameters) {
             fmt::format("climate.hours, climate.temperatures_c and climate.humidities must have as many "
                         "numbers each, at least one; they have {}, {} and {}",
                         rows, parameters.temperatures_c.size(), parameters.humidities.size()));
-    std::vector<water::ClimateRow> table(rows);
+    std::vector<ClimateRow> table(rows);
     for (std::size_t i = 0; i < rows; ++i)
         table[i] = {parameters.hours[i], parameters.temperatures_c[i], parameters.humidities[i]};
-    return water::Climate(std::move(table));
+    return Climate(std::move(table));
 }
 
-}  // namespace windfall::decay
+}  // namespace windfall::water

@@ -1,0 +1,53 @@
+#include "drying/skin_exposure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace windfall::drying {
+
+namespace {
+
+using geometry::Vec3;
+
+Vec3 to_direction(const std::vector<double>& xyz) { return Vec3(xyz[0], xyz[1], xyz[2]).normalized(); }
+
+}  // namespace
+
+SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoistureParameters& parameters,
+                           const SkinPaint& paint) {
+    const auto& quads = mesh.brick.quads;
+    SkinExposure result{std::vector<double>(quads.size(), 1), std::vector<double>(quads.size(), 0)};
+    const std::vector<Vec3> skin = mesh.level_positions(mesh.layers);
+    const std::vector<Shade> shades = shades_of(parameters);
+    const auto uvs = geometry::brick_atlas(mesh.brick);
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+        const auto corner = [&](std::size_t c) -> const Vec3& { return skin[quads[q][c]]; };
+        const Vec3 middle = (corner(0) + corner(1) + corner(2) + corner(3)) / 4;
+        if (!parameters.sun_direction.empty()) {
+            const Vec3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1)).normalized();
+            result.sun[q] = std::max(0.0, normal.dot(to_direction(parameters.sun_direction)));
+        }
+        for (const Shade& shade : shades) {
+            const double cosine = middle.normalized().dot(to_direction(shade.direction));
+            if (cosine < std::cos(shade.half_angle_deg * std::numbers::pi / 180)) continue;
+            result.transpiration[q] *= shade.factor;
+            result.sun[q] = 0;
+        }
+        if (paint) {
+            const geometry::Vec2 uv = (uvs[q][0] + uvs[q][1] + uvs[q][2] + uvs[q][3]) / 4;
+            result.transpiration[q] *= std::clamp(paint(uv), 0.0, 1.0);
+        }
+    }
+    return result;
+}
+
+double daylight(Sunshine sunshine, double hour) {
+    if (sunshine == Sunshine::Always) return 1;
+    constexpr double kSunrise = 6;
+    constexpr double kDayLength = 12;
+    return std::max(0.0, std::sin(std::numbers::pi * (hour - kSunrise) / kDayLength));
+}
+
+}  // namespace windfall::drying
