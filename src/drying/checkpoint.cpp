@@ -7,17 +7,18 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 // Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements.
 nlohmann::json to_json(const StepRecord& r) {
     return {r.shrinkage,    r.depth_rms,         r.elastic_energy, r.viscous_work, r.smallest_volume_ratio,
-            r.newton_steps, r.linear_iterations, r.failures};
+            r.newton_steps, r.linear_iterations, r.failures,       r.contacts};
 }
 
 StepRecord step_record_from(const nlohmann::json& r) {
-    return {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(), r.at(3).get<double>(),
-            r.at(4).get<double>(), r.at(5).get<int>(),    r.at(6).get<int>(),    r.at(7).get<int>()};
+    return {r.at(0).get<double>(), r.at(1).get<double>(), r.at(2).get<double>(),
+            r.at(3).get<double>(), r.at(4).get<double>(), r.at(5).get<int>(),
+            r.at(6).get<int>(),    r.at(7).get<int>(),    r.at(8).get<int>()};
 }
 
 nlohmann::json head_of(const Checkpoint& checkpoint) {

@@ -39,7 +39,11 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
                                      layer_moduli(m_mesh.flesh_layers, m_mesh.layers,
                                                   parameters.material.gamma, parameters.material.bulk_ratio),
                                      *m_multigrid);
-    m_newton = std::make_unique<NewtonSolver>(*m_elasticity);
+    if (parameters.contact.gap > 0)
+        m_contact = std::make_unique<SkinContact>(m_mesh, m_multigrid->order(),
+                                                  parameters.contact.gap * parameters.fruit.skin_thickness,
+                                                  parameters.contact.stiffness);
+    m_newton = std::make_unique<NewtonSolver>(*m_elasticity, m_contact.get());
     m_skin_rest = m_mesh.level_positions(m_mesh.layers);
     m_skin_areas = geometry::vertex_areas(m_skin_rest, m_mesh.faces());
     m_slow = std::make_unique<geometry::SlowField>(m_mesh.directions, m_skin_areas);
@@ -105,6 +109,11 @@ bool DryingPath::attempt(double step, const RunContext& context) {
     const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
     m_elasticity->set_drying(m_drying.at(m_state.shrinkage + step));
     AlignedArray<double> displacement = predict(step);
+    if (m_contact != nullptr) {
+        const double part = m_contact->free_part(start, displacement);
+        for (std::size_t i = 0; part < 1 && i < start.size(); ++i)
+            displacement[i] = start[i] + part * (displacement[i] - start[i]);
+    }
     if (!(m_newton->potential(displacement, damping) < m_newton->potential(start, damping)))
         displacement = start;
 
@@ -125,7 +134,8 @@ bool DryingPath::attempt(double step, const RunContext& context) {
     record.smallest_volume_ratio = result.smallest_volume_ratio;
     // The viscous force c M du/dt works over du: twice the damping's part of the potential.
     record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
-                          2 * (result.potential - result.elastic_energy);
+                          2 * (result.potential - result.elastic_energy - result.contact.energy);
+    record.contacts = result.contact.pairs;
     set_step_after(step, result);
     m_state.shrinkage += step;
     m_state.displacements.insert(m_state.displacements.begin(), std::move(displacement));

@@ -27,6 +27,7 @@ struct StepRecord {
     int newton_steps = 0;  ///< with those of failed attempts before
     int linear_iterations = 0;
     int failures = 0;  ///< attempts that were given up before this one
+    int contacts = 0;  ///< pairs of parts of the skin closer than the contact's gap
 };
 
 /// Everything that the way ahead depends on; a checkpoint is this and nothing else.
@@ -58,6 +59,8 @@ class DryingPath {
     const geometry::LayeredMesh& mesh() const { return m_mesh; }
     Elasticity& elasticity() { return *m_elasticity; }
     NewtonSolver& newton() { return *m_newton; }
+    /// Null where the skin may pass through itself.
+    SkinContact* contact() { return m_contact.get(); }
     const RecipeDrying& drying() const { return m_drying; }
     double reference_force() const { return m_reference_force; }
 
@@ -78,6 +81,7 @@ class DryingPath {
     RecipeDrying m_drying;
     std::unique_ptr<Multigrid> m_multigrid;
     std::unique_ptr<Elasticity> m_elasticity;
+    std::unique_ptr<SkinContact> m_contact;
     std::unique_ptr<NewtonSolver> m_newton;
     std::vector<geometry::Vec3> m_skin_rest;
     std::vector<double> m_skin_areas;

@@ -64,6 +64,17 @@ void add_physics(Table& t) {
           {.minimum = 0, .maximum = 3});
 }
 
+void add_contact(Table& t) {
+    t.add("contact.gap", "t_e", [](auto& p) -> auto& { return p.contact.gap; },
+          "distance below which folds of the skin press on each other, in skin thicknesses: 0.15 is a good "
+          "one; 0: they pass through each other",
+          {.minimum = 0, .maximum = 1});
+    t.add(
+        "contact.stiffness", "C0", [](auto& p) -> auto& { return p.contact.stiffness; },
+        "pressure of two folds at about half the gap; larger: folds stay further apart, and more increments",
+        {.minimum = 1e-3, .maximum = 1e3});
+}
+
 void add_numerics(Table& t) {
     t.add("mesh.n", "1", [](auto& p) -> auto& { return p.mesh.n; },
           "elements along the shorter sides of the brick that is wrapped around the fruit, a multiple of 8; "
@@ -119,6 +130,7 @@ Table make_table() {
           {.minimum = 0, .maximum = 9007199254740992.0});
     add_fruit(t);
     add_physics(t);
+    add_contact(t);
     add_numerics(t);
     t.add("output.frames", "1", [](auto& p) -> auto& { return p.output.frames; },
           "number of frames at even shrinkages, the fresh fruit being the first",

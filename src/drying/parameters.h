@@ -29,6 +29,11 @@ struct ShrinkageParameters {
     double radial = 1, meridional = 1, latitudinal = 1;
 };
 
+struct ContactParameters {
+    double gap = 0;
+    double stiffness = 1;
+};
+
 struct MeshParameters {
     std::int64_t n = 0;
     double elongation = 0;
@@ -66,6 +71,7 @@ struct DryingParameters {
     FruitParameters fruit;
     MaterialParameters material;
     ShrinkageParameters drying;
+    ContactParameters contact;
     MeshParameters mesh;
     ImperfectionParameters imperfection;
     SolverParameters solver;
