@@ -106,8 +106,8 @@ AlignedArray<double> DryingPath::predict(double step) const {
 bool DryingPath::attempt(double step, const RunContext& context) {
     StepRecord& record = m_state.pending;
     const AlignedArray<double>& start = m_state.displacements.front();
-    const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
-    m_elasticity->set_drying(m_drying.at(m_state.shrinkage + step));
+    const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / std::abs(step)};
+    m_elasticity->set_drying(stress_free_at(m_state.shrinkage + step));
     AlignedArray<double> displacement = predict(step);
     if (m_contact != nullptr) {
         const double part = m_contact->free_part(start, displacement);
@@ -125,7 +125,7 @@ bool DryingPath::attempt(double step, const RunContext& context) {
     record.newton_steps += result.newton_steps;
     record.linear_iterations += result.linear_iterations;
     if (!result.converged) {
-        m_state.next_step = step * kCutAfterFailure;
+        m_state.next_step = std::abs(step) * kCutAfterFailure;
         ++record.failures;
         return false;
     }
@@ -136,12 +136,14 @@ bool DryingPath::attempt(double step, const RunContext& context) {
     record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
                           2 * (result.potential - result.elastic_energy - result.contact.energy);
     record.contacts = result.contact.pairs;
-    set_step_after(step, result);
+    set_step_after(std::abs(step), result);
     m_state.shrinkage += step;
     m_state.displacements.insert(m_state.displacements.begin(), std::move(displacement));
     m_state.past_steps.insert(m_state.past_steps.begin(), step);
     if (m_state.displacements.size() > 3) m_state.displacements.pop_back();
     if (m_state.past_steps.size() > 2) m_state.past_steps.pop_back();
+    const YieldStrains yield{m_parameters.set.flesh_yield_strain, m_parameters.set.skin_yield_strain};
+    if (yield.any()) flow(m_state.set, m_mesh, positions(), m_drying.at(m_state.shrinkage), yield);
     return true;
 }
 
@@ -157,9 +159,18 @@ void DryingPath::set_step_after(double step, const NewtonResult& result) {
     }
 }
 
+/// Equilibria of the way up say nothing about the way down.
+void DryingPath::set_direction(double direction) {
+    if (m_state.past_steps.empty() || m_state.past_steps.front() * direction > 0) return;
+    m_state.past_steps.clear();
+    m_state.displacements.resize(1);
+}
+
 void DryingPath::advance(double target, const RunContext& context, const std::function<void()>& on_step) {
     constexpr double kSame = 1e-9;
-    while (m_state.shrinkage < target - kSame) {
+    const double direction = target < m_state.shrinkage ? -1 : 1;
+    while (direction * (target - m_state.shrinkage) > kSame) {
+        set_direction(direction);
         context.throw_if_cancelled();
         if (m_state.next_step < kSmallestStep)
             throw LostEquilibrium(fmt::format(
@@ -168,8 +179,10 @@ void DryingPath::advance(double target, const RunContext& context, const std::fu
                 "or stop at drying.shrinkage = {:.2f}",
                 m_state.shrinkage, kSmallestStep, m_parameters.solver.viscosity,
                 m_parameters.imperfection.amplitude, std::floor(100 * m_state.shrinkage) / 100));
-        if (!attempt(std::min(m_state.next_step, target - m_state.shrinkage), context)) continue;
-        if (target - m_state.shrinkage < kSame) m_state.shrinkage = m_state.pending.shrinkage = target;
+        const double way = direction * (target - m_state.shrinkage);
+        if (!attempt(direction * std::min(m_state.next_step, way), context)) continue;
+        if (direction * (target - m_state.shrinkage) < kSame)
+            m_state.shrinkage = m_state.pending.shrinkage = target;
         m_state.pending.depth_rms = root_mean_square_depth();
         m_state.history.push_back(std::exchange(m_state.pending, {}));
         if (on_step) on_step();

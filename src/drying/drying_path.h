@@ -1,5 +1,6 @@
 #pragma once
-// The equilibria of a body as its shrinkage grows: increments with predictor, trust region and step control.
+// The equilibria of a body as its shrinkage grows, or falls again: increments with predictor, trust region
+// and step control.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/run_context.h"
 #include "drying/drying_field.h"
 #include "drying/newton.h"
+#include "drying/plastic_set.h"
 #include "geometry/smooth_surface.h"
 
 namespace windfall::drying {
@@ -33,9 +35,10 @@ struct StepRecord {
 /// Everything that the way ahead depends on; a checkpoint is this and nothing else.
 struct PathState {
     double shrinkage = 0;
-    double next_step = 0;
-    std::vector<double> past_steps;  ///< sizes of the last increments, latest first; at most 2
+    double next_step = 0;            ///< its size
+    std::vector<double> past_steps;  ///< the last increments in this direction, latest first; at most 2
     std::vector<AlignedArray<double>> displacements;  ///< now, and after the increments before; at most 3
+    PlasticSet set;                                   ///< empty before the first flow
     std::vector<StepRecord> history;
     StepRecord pending;  ///< attempts since the last accepted increment: counts only
 };
@@ -45,8 +48,8 @@ class DryingPath {
     /// `mesh` is the fresh body, imperfection included.
     DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters);
 
-    /// Goes on to `target` exactly. Calls `on_step` after each increment. Throws RunError where equilibrium
-    /// is lost: the state is then that of the last equilibrium. Throws Cancelled likewise.
+    /// Goes on to `target` exactly, up or down. Calls `on_step` after each increment. Throws RunError where
+    /// equilibrium is lost: the state is then that of the last equilibrium. Throws Cancelled likewise.
     void advance(double target, const RunContext& context, const std::function<void()>& on_step = {});
 
     const PathState& state() const { return m_state; }
@@ -62,6 +65,11 @@ class DryingPath {
     /// Null where the skin may pass through itself.
     SkinContact* contact() { return m_contact.get(); }
     const RecipeDrying& drying() const { return m_drying; }
+    /// The stretch of the stress-free state, element by element, now: of drying and of plastic set. Valid
+    /// while the path stands still.
+    DryingField stress_free() const { return stress_free_at(m_state.shrinkage); }
+    /// Whether the last increments lowered the shrinkage.
+    bool rewetting() const { return !m_state.past_steps.empty() && m_state.past_steps.front() < 0; }
     double reference_force() const { return m_reference_force; }
 
     /// Nodes now: [column * layers + k], in the brick's order.
@@ -70,6 +78,10 @@ class DryingPath {
     std::vector<double> skin_depth() const;
 
   private:
+    DryingField stress_free_at(double shrinkage) const {
+        return with_set(m_drying.at(shrinkage), m_state.set, m_mesh.layers);
+    }
+    void set_direction(double direction);
     bool attempt(double step, const RunContext& context);
     void set_step_after(double step, const NewtonResult& result);
     AlignedArray<double> predict(double step) const;

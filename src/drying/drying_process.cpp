@@ -78,7 +78,8 @@ class Run {
 
   private:
     geometry::LayeredMesh fresh_mesh() {
-        m_context.progress({"meshing", 0, m_parameters.drying.shrinkage, -1, ""});
+        const double way = m_parameters.drying.shrinkage * (1 + m_parameters.drying.rewet);
+        m_context.progress({"meshing", 0, way, -1, ""});
         check(m_parameters);
         const auto shape = make_shape(m_parameters.fruit);
         geometry::LayeredMesh mesh = make_mesh(m_parameters, *shape);
@@ -92,9 +93,11 @@ class Run {
 
     void after_step() {
         const StepRecord& step = m_path.state().history.back();
-        const double total = m_parameters.drying.shrinkage;
-        m_context.progress({"drying", step.shrinkage, total,
-                            m_time_left.estimate(step.shrinkage, total, seconds()),
+        const double most = m_parameters.drying.shrinkage;
+        const double total = most * (1 + m_parameters.drying.rewet);
+        const double done = m_path.rewetting() ? 2 * most - step.shrinkage : step.shrinkage;
+        m_context.progress({m_path.rewetting() ? "rewetting" : "drying", done, total,
+                            m_time_left.estimate(done, total, seconds()),
                             fmt::format("shrinkage {:.3f}, depth {:.2f} t_e", step.shrinkage,
                                         step.depth_rms / m_parameters.fruit.skin_thickness)});
         m_context.log(
@@ -126,6 +129,7 @@ class Run {
             history["newton_steps"].push_back(r.newton_steps);
             history["linear_iterations"].push_back(r.linear_iterations);
             history["failures"].push_back(r.failures);
+            history["contacts"].push_back(r.contacts);
             newton += r.newton_steps;
             linear += r.linear_iterations;
             failures += r.failures;

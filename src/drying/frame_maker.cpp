@@ -25,7 +25,7 @@ struct SolidSums {
 SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
                        const std::vector<Vec3>& nodes) {
     const LayeredMesh& mesh = path.mesh();
-    const DryingField drying = path.drying().at(path.shrinkage());
+    const DryingField drying = path.stress_free();
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);
     SolidSums sums;
@@ -89,7 +89,8 @@ take::Frame make_frame(const DryingPath& path, const DryingParameters& parameter
 
     take::Frame frame;
     frame.index = index;
-    frame.time = path.shrinkage() / parameters.drying.shrinkage;
+    const double most = parameters.drying.shrinkage;
+    frame.time = (path.rewetting() ? 2 * most - path.shrinkage() : path.shrinkage()) / most;
     take::FrameMesh surface;
     surface.name = kSkinMesh;
     for (const Vec3& position : skin) surface.positions.emplace_back(position.cast<float>());

@@ -53,6 +53,10 @@ void add_physics(Table& t) {
           "linear shrinkage of the flesh, 1 - theta, at the end; the flesh keeps (1 - shrinkage)^3 of its "
           "volume",
           {.minimum = 0.001, .below = 1});
+    t.add("drying.rewet", "1", [](auto& p) -> auto& { return p.drying.rewet; },
+          "part of the shrinkage that the flesh takes back after drying, swelling with water again; 1: all "
+          "of it",
+          {.minimum = 0, .maximum = 1});
     t.add("drying.skin_fraction", "1", [](auto& p) -> auto& { return p.drying.skin_fraction; },
           "shrinkage of the skin as a fraction of the flesh's; 1: no wrinkles", {.minimum = 0, .maximum = 1});
     t.add("drying.radial", "1", [](auto& p) -> auto& { return p.drying.radial; },
@@ -62,6 +66,16 @@ void add_physics(Table& t) {
     t.add("drying.latitudinal", "1", [](auto& p) -> auto& { return p.drying.latitudinal; },
           "shrinkage along the circles of latitude, as a multiple of drying.shrinkage",
           {.minimum = 0, .maximum = 3});
+}
+
+void add_set(Table& t) {
+    t.add("set.flesh_yield_strain", "1", [](auto& p) -> auto& { return p.set.flesh_yield_strain; },
+          "plastic set: equivalent elastic strain from which the flesh keeps a deformation for good; 0: it "
+          "never does",
+          {.minimum = 0, .maximum = 10});
+    t.add("set.skin_yield_strain", "1", [](auto& p) -> auto& { return p.set.skin_yield_strain; },
+          "the same of the skin; with it, wrinkles stay when the fruit is rewetted",
+          {.minimum = 0, .maximum = 10});
 }
 
 void add_contact(Table& t) {
@@ -130,6 +144,7 @@ Table make_table() {
           {.minimum = 0, .maximum = 9007199254740992.0});
     add_fruit(t);
     add_physics(t);
+    add_set(t);
     add_contact(t);
     add_numerics(t);
     t.add("output.frames", "1", [](auto& p) -> auto& { return p.output.frames; },

@@ -25,13 +25,19 @@ struct MaterialParameters {
 
 struct ShrinkageParameters {
     double shrinkage = 0.3;
+    double rewet = 0;
     double skin_fraction = 0;
     double radial = 1, meridional = 1, latitudinal = 1;
 };
 
+struct SetParameters {
+    double flesh_yield_strain = 0;
+    double skin_yield_strain = 0;
+};
+
 struct ContactParameters {
     double gap = 0;
-    double stiffness = 1;
+    double stiffness = 10;
 };
 
 struct MeshParameters {
@@ -71,6 +77,7 @@ struct DryingParameters {
     FruitParameters fruit;
     MaterialParameters material;
     ShrinkageParameters drying;
+    SetParameters set;
     ContactParameters contact;
     MeshParameters mesh;
     ImperfectionParameters imperfection;
@@ -85,7 +92,8 @@ const ParameterTable<DryingParameters>& drying_parameters();
 /// end. Throws InputError with the keys concerned and the remedy.
 void check(const DryingParameters& parameters);
 
-/// The shrinkages at which frames are taken, rising, the first 0 and the last `drying.shrinkage`.
+/// The shrinkages at which frames are taken: from 0 up to `drying.shrinkage`, and from there down again as
+/// far as the fruit is rewetted. All three are among them.
 std::vector<double> frame_shrinkages(const DryingParameters& parameters);
 
 }  // namespace windfall::drying

@@ -48,19 +48,34 @@ void check(const DryingParameters& p) {
 }
 
 std::vector<double> frame_shrinkages(const DryingParameters& p) {
-    std::vector<double> result;
+    const double most = p.drying.shrinkage;
+    const double last = most * (1 - p.drying.rewet);
+    std::vector<double> up = {0, most};
+    std::vector<double> down;
+    if (p.drying.rewet > 0) down.push_back(last);
     if (p.output.shrinkages.empty()) {
-        for (std::int64_t i = 0; i < p.output.frames; ++i)
-            result.push_back(p.drying.shrinkage * static_cast<double>(i) /
-                             static_cast<double>(p.output.frames - 1));
-        return result;
+        const double way = most * (1 + p.drying.rewet);
+        for (std::int64_t i = 0; i < p.output.frames; ++i) {
+            const double part = way * static_cast<double>(i) / static_cast<double>(p.output.frames - 1);
+            (part <= most ? up : down).push_back(part <= most ? part : 2 * most - part);
+        }
     }
-    result = p.output.shrinkages;
-    result.push_back(0);
-    result.push_back(p.drying.shrinkage);
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
+    for (const double shrinkage : p.output.shrinkages) {
+        up.push_back(shrinkage);
+        if (p.drying.rewet > 0 && shrinkage > last) down.push_back(shrinkage);
+    }
+    const auto in_order = [](std::vector<double>& values) {
+        constexpr double kSame = 1e-9;  // rounding of the even parts
+        std::sort(values.begin(), values.end());
+        values.erase(
+            std::unique(values.begin(), values.end(), [](double a, double b) { return b - a < kSame; }),
+            values.end());
+    };
+    in_order(up);
+    down.push_back(most);
+    in_order(down);
+    up.insert(up.end(), down.rbegin() + 1, down.rend());
+    return up;
 }
 
 Plan plan(const DryingParameters& parameters) {
