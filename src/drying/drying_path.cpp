@@ -32,13 +32,16 @@ double norm_of(const AlignedArray<double>& a) {
 }  // namespace
 
 DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& parameters)
-    : m_mesh(std::move(mesh)), m_parameters(parameters), m_drying(m_mesh, parameters.drying) {
+    : m_mesh(std::move(mesh)),
+      m_parameters(parameters),
+      m_drying(m_mesh, parameters.drying),
+      m_walls(wall_parts(m_mesh, parameters.segments)) {
     m_multigrid = std::make_unique<Multigrid>(m_mesh.brick, m_mesh.layers, kernels(m_mesh.layers));
     m_elasticity =
         std::make_unique<Elasticity>(m_mesh,
                                      layer_moduli(m_mesh.flesh_layers, m_mesh.layers,
                                                   parameters.material.gamma, parameters.material.bulk_ratio),
-                                     *m_multigrid);
+                                     *m_multigrid, flesh_stiffening());
     if (parameters.contact.gap > 0)
         m_contact = std::make_unique<SkinContact>(m_mesh, m_multigrid->order(),
                                                   parameters.contact.gap * parameters.fruit.skin_thickness,
@@ -54,7 +57,7 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     // ratio it is of the size of the shear forces that shape the wrinkles.
     constexpr double kReferenceShrinkage = 0.01;
     AlignedArray<double> force(m_elasticity->size());
-    m_elasticity->set_drying(m_drying.at(kReferenceShrinkage));
+    m_elasticity->set_drying(drying_at(kReferenceShrinkage));
     m_elasticity->energy(m_state.displacements.front(), &force);
     m_reference_force = norm_of(force) / parameters.material.bulk_ratio;
 }
@@ -142,8 +145,8 @@ bool DryingPath::attempt(double step, const RunContext& context) {
     m_state.past_steps.insert(m_state.past_steps.begin(), step);
     if (m_state.displacements.size() > 3) m_state.displacements.pop_back();
     if (m_state.past_steps.size() > 2) m_state.past_steps.pop_back();
-    const YieldStrains yield{m_parameters.set.flesh_yield_strain, m_parameters.set.skin_yield_strain};
-    if (yield.any()) flow(m_state.set, m_mesh, positions(), m_drying.at(m_state.shrinkage), yield);
+    const YieldStrains yield{m_parameters.plastic.flesh_yield_strain, m_parameters.plastic.skin_yield_strain};
+    if (yield.any()) flow(m_state.set, m_mesh, positions(), drying_at(m_state.shrinkage), yield);
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include "drying/drying_field.h"
 #include "drying/newton.h"
 #include "drying/plastic_set.h"
+#include "drying/segments.h"
 #include "geometry/smooth_surface.h"
 
 namespace windfall::drying {
@@ -65,6 +66,8 @@ class DryingPath {
     /// Null where the skin may pass through itself.
     SkinContact* contact() { return m_contact.get(); }
     const RecipeDrying& drying() const { return m_drying; }
+    /// Factors of the flesh's moduli by quad of the brick; empty: 1 everywhere.
+    std::vector<double> flesh_stiffening() const { return wall_stiffening(m_walls, m_parameters.segments); }
     /// The stretch of the stress-free state, element by element, now: of drying and of plastic set. Valid
     /// while the path stands still.
     DryingField stress_free() const { return stress_free_at(m_state.shrinkage); }
@@ -78,8 +81,11 @@ class DryingPath {
     std::vector<double> skin_depth() const;
 
   private:
+    DryingField drying_at(double shrinkage) const {
+        return with_walls(m_drying.at(shrinkage), m_walls, m_parameters.segments, m_mesh.flesh_layers);
+    }
     DryingField stress_free_at(double shrinkage) const {
-        return with_set(m_drying.at(shrinkage), m_state.set, m_mesh.layers);
+        return with_set(drying_at(shrinkage), m_state.set, m_mesh.layers);
     }
     void set_direction(double direction);
     bool attempt(double step, const RunContext& context);
@@ -91,6 +97,7 @@ class DryingPath {
     geometry::LayeredMesh m_mesh;
     DryingParameters m_parameters;
     RecipeDrying m_drying;
+    std::vector<double> m_walls;  ///< see segments.h
     std::unique_ptr<Multigrid> m_multigrid;
     std::unique_ptr<Elasticity> m_elasticity;
     std::unique_ptr<SkinContact> m_contact;

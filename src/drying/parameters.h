@@ -30,14 +30,21 @@ struct ShrinkageParameters {
     double radial = 1, meridional = 1, latitudinal = 1;
 };
 
-struct SetParameters {
+struct SegmentParameters {
+    std::int64_t count = 0;
+    double wall_width = 0.15;
+    double wall_stiffness = 10;
+    double wall_shrinkage = 0.3;
+};
+
+struct PlasticParameters {
     double flesh_yield_strain = 0;
     double skin_yield_strain = 0;
 };
 
 struct ContactParameters {
     double gap = 0;
-    double stiffness = 10;
+    double stiffness = 50;
 };
 
 struct MeshParameters {
@@ -77,7 +84,8 @@ struct DryingParameters {
     FruitParameters fruit;
     MaterialParameters material;
     ShrinkageParameters drying;
-    SetParameters set;
+    SegmentParameters segments;
+    PlasticParameters plastic;
     ContactParameters contact;
     MeshParameters mesh;
     ImperfectionParameters imperfection;

@@ -13,9 +13,9 @@ using geometry::Vec3;
 namespace {
 
 constexpr std::size_t kPairBlock = 512;
-constexpr double kShareOfPair = 0.25;
-constexpr double kShareOfHeight = 0.3;  // gap over the smallest height of a fresh triangle, at most
-constexpr double kAllowance = 1;        // of the gap: how far vertices move before pairs are looked for again
+constexpr double kShareOfPair = 1.0 / 24;  // of a pair's area; measured, see the header
+constexpr double kShareOfHeight = 0.3;     // gap over the smallest height of a fresh triangle, at most
+constexpr double kAllowance = 1;  // of the gap: how far vertices move before pairs are looked for again
 constexpr double kMotionReserve = 1.25;  // over the motion that pairs are looked for
 constexpr double kSmallestScale = 0.9;   // of the skin since pairs were looked for
 /// Share of the contact's own blocks that the preconditioner sees: measured, see docs/drying.md.

@@ -3,9 +3,10 @@
 // zero where no two parts of the outer surface are closer than a gap, and endless where they touch.
 //
 // A pair at the distance d < g, y = d / g, that stands for the fresh area A has the energy
-//   A E g b(y) / 4,   b(y) = -(1 - y)^2 ln y,
-// E being the stiffness. A vertex and a triangle, or two edges, are pairs unless they share a vertex. The
-// quarter is there since each of two facing sheets has its vertices and its edges.
+//   A E g b(y) / 24,   b(y) = -(1 - y)^2 ln y,
+// E being the stiffness. A vertex and a triangle, or two edges, are pairs unless they share a vertex. By the
+// 24 two flat sheets at half the gap press on each other with about E: a place on one is near many parts of
+// the other.
 #include <optional>
 
 #include "core/aligned_array.h"
