@@ -95,6 +95,8 @@ int calculix_node(const LayeredMesh& mesh, std::size_t vertex, int level) {
 
 std::string calculix_deck(const LayeredMesh& mesh, const DryingParameters& parameters) {
     check_isotropic(parameters.drying);
+    if (parameters.segments.count > 0)
+        throw InputError("a CalculiX deck holds fruit without walls only: set segments.count = 0");
     const double shrinkage = parameters.drying.shrinkage * parameters.drying.radial;
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);

@@ -9,17 +9,18 @@ namespace {
 
 constexpr int kVersion = 3;
 
-// Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements.
+// Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements,
+// the plastic set.
 nlohmann::json to_json(const StepRecord& r) {
-    return {r.parameter,      r.shrinkage,         r.depth_rms,
-            r.elastic_energy, r.viscous_work,      r.smallest_volume_ratio,
-            r.newton_steps,   r.linear_iterations, r.failures};
+    return {r.parameter,         r.shrinkage,    r.depth_rms,         r.elastic_energy, r.viscous_work,
+            r.smallest_volume_ratio, r.newton_steps, r.linear_iterations, r.failures,       r.contacts};
 }
 
 StepRecord step_record_from(const nlohmann::json& r) {
     const auto number = [&r](std::size_t i) { return r.at(i).get<double>(); };
     const auto count = [&r](std::size_t i) { return r.at(i).get<int>(); };
-    return {number(0), number(1), number(2), number(3), number(4), number(5), count(6), count(7), count(8)};
+    return {number(0), number(1), number(2), number(3), number(4),
+            number(5), count(6),  count(7),  count(8),  count(9)};
 }
 
 nlohmann::json head_of(const Checkpoint& checkpoint) {
@@ -32,6 +33,7 @@ nlohmann::json head_of(const Checkpoint& checkpoint) {
             {"next_step", checkpoint.path.next_step},
             {"past_steps", checkpoint.path.past_steps},
             {"displacements", checkpoint.path.displacements.size()},
+            {"set", checkpoint.path.set.size()},
             {"history", history},
             {"pending", to_json(checkpoint.path.pending)},
             {"frames_done", checkpoint.frames_done},
@@ -65,6 +67,7 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
     std::size_t size = sizeof(std::uint64_t) + head.size();
     for (const auto& displacement : checkpoint.path.displacements)
         size += displacement.size() * sizeof(double);
+    size += checkpoint.path.set.size() * sizeof(double);
     std::vector<std::byte> bytes(size);
     std::byte* out = bytes.data();
     const auto put = [&out](const void* data, std::size_t count) {
@@ -76,6 +79,8 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
     put(head.data(), head.size());
     for (const auto& displacement : checkpoint.path.displacements)
         put(displacement.data(), displacement.size() * sizeof(double));
+    if (!checkpoint.path.set.empty())
+        put(checkpoint.path.set.data(), checkpoint.path.set.size() * sizeof(double));
     return bytes;
 }
 
@@ -94,7 +99,10 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_
         Checkpoint checkpoint = from_head(head);
         const auto count = head.at("displacements").get<std::size_t>();
         const std::size_t vector_bytes = vector_size * sizeof(double);
-        if (count < 1 || count > 3 || bytes.size() != count * vector_bytes ||
+        const auto set_count = head.at("set").get<std::size_t>();
+        // 6 numbers an element; there are fewer elements than nodes.
+        if (count < 1 || count > 3 || set_count > 2 * vector_size ||
+            bytes.size() != count * vector_bytes + set_count * sizeof(double) ||
             checkpoint.path.past_steps.size() + 1 != count ||
             checkpoint.path.course.values.size() != course_size || checkpoint.frames_done < 0)
             refuse();
@@ -103,6 +111,10 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes, std::size_t vector_
             std::memcpy(displacement.data(), bytes.data() + i * vector_bytes, vector_bytes);
             checkpoint.path.displacements.push_back(std::move(displacement));
         }
+        checkpoint.path.set.resize(set_count);
+        if (set_count > 0)
+            std::memcpy(checkpoint.path.set.data(), bytes.data() + count * vector_bytes,
+                        set_count * sizeof(double));
         return checkpoint;
     } catch (const nlohmann::json::exception&) {
         refuse();

@@ -1,6 +1,7 @@
 #include "drying/conjugate_gradients.h"
 
 #include <cmath>
+#include <utility>
 
 namespace windfall::drying {
 
@@ -37,9 +38,11 @@ void for_blocks(std::size_t size, const Body& body) {
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(Multigrid& multigrid, const AlignedArray<float>& mass)
+ConjugateGradients::ConjugateGradients(Multigrid& multigrid, const AlignedArray<float>& mass,
+                                       AddedProduct added)
     : m_multigrid(multigrid),
       m_mass(mass),
+      m_added(std::move(added)),
       m_residual(multigrid.vector_size()),
       m_last_residual(multigrid.vector_size()),
       m_preconditioned(multigrid.vector_size()),
@@ -101,6 +104,7 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
         else
             for_blocks(size, [&](std::size_t i) { p[i] = z[i] + beta_f * p[i]; });
         m_multigrid.product(p, q);
+        if (m_added) m_added(p, q);
         const double curvature = dot(m_direction, m_product);
         ++result.iterations;
         const bool negative = !(curvature > 0);

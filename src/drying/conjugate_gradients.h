@@ -1,5 +1,7 @@
 #pragma once
 // Preconditioned conjugate gradients inside a trust region (Steihaug 1983).
+#include <functional>
+
 #include "core/run_context.h"
 #include "drying/multigrid.h"
 
@@ -19,11 +21,15 @@ struct LinearResult {
     double relative_residual = 1;
 };
 
-/// Solves A x = b with the multigrid's finest matrix. Single precision vectors, double sums in a fixed order.
+/// Adds to y what a symmetric matrix beside the multigrid's makes of x.
+using AddedProduct = std::function<void(const float* x, float* y)>;
+
+/// Solves A x = b with the multigrid's finest matrix, plus an added one if there is any. Single precision
+/// vectors, double sums in a fixed order.
 class ConjugateGradients {
   public:
     /// `mass`: [column][layers], weights of the norm that the trust region is measured in, of sum 1.
-    ConjugateGradients(Multigrid& multigrid, const AlignedArray<float>& mass);
+    ConjugateGradients(Multigrid& multigrid, const AlignedArray<float>& mass, AddedProduct added = {});
 
     /// Starts from x = 0. `radius` is the largest mass-weighted root mean square of x; infinity for none.
     LinearResult solve(const AlignedArray<float>& b, AlignedArray<float>& x, double tolerance,
@@ -35,6 +41,7 @@ class ConjugateGradients {
   private:
     Multigrid& m_multigrid;
     const AlignedArray<float>& m_mass;
+    AddedProduct m_added;
     AlignedArray<float> m_residual, m_last_residual, m_preconditioned, m_direction, m_product;
 };
 

@@ -20,6 +20,7 @@ struct CourseState {
 struct CourseIncrement {
     CourseState to;
     double change = 0;           ///< largest change of an element's shrinkage, >= 0
+    bool turns = false;  ///< the way goes back from its end
     bool cut_at_target = false;  ///< ended by the target, before an element had changed as much as it may
     DryingField field;           ///< Fd at the end; valid as long as the course
 };
@@ -43,10 +44,14 @@ class DryingCourse {
     virtual std::vector<double> skin_dryness(const CourseState& /*state*/) const { return {}; }
 };
 
-/// The paper's: one shrinkage for all flesh, which is the parameter.
+/// Shrinkage after a way up to `most` and down again.
+inline double shrinkage_on_way(double way, double most) { return way <= most ? way : 2 * most - way; }
+
+/// The paper's: one shrinkage for all flesh. The parameter is the way that it has gone, up to `most` and, as the
+/// fruit takes up water, down again.
 class GivenShrinkage : public DryingCourse {
   public:
-    explicit GivenShrinkage(RecipeDrying drying) : m_drying(std::move(drying)) {}
+    GivenShrinkage(RecipeDrying drying, double most) : m_drying(std::move(drying)), m_most(most) {}
 
     CourseState start() const override { return {}; }
     CourseIncrement increment(const CourseState& from, double target, double largest_change,
@@ -55,6 +60,7 @@ class GivenShrinkage : public DryingCourse {
 
   private:
     RecipeDrying m_drying;
+    double m_most;
 };
 
 /// Nearer to its target than this a parameter has reached it.

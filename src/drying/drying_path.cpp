@@ -40,16 +40,22 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     : m_mesh(std::move(mesh)),
       m_parameters(parameters),
       m_drying(m_mesh, parameters.drying),
-      m_course(std::move(course)) {
-    if (m_course == nullptr) m_course = std::make_unique<GivenShrinkage>(m_drying);
+      m_course(std::move(course)),
+      m_walls(wall_parts(m_mesh, parameters.segments)) {
+    if (m_course == nullptr)
+        m_course = std::make_unique<GivenShrinkage>(m_drying, parameters.drying.shrinkage);
     m_state.course = m_course->start();
     m_multigrid = std::make_unique<Multigrid>(m_mesh.brick, m_mesh.layers, kernels(m_mesh.layers));
     m_elasticity =
         std::make_unique<Elasticity>(m_mesh,
                                      layer_moduli(m_mesh.flesh_layers, m_mesh.layers,
                                                   parameters.material.gamma, parameters.material.bulk_ratio),
-                                     *m_multigrid);
-    m_newton = std::make_unique<NewtonSolver>(*m_elasticity);
+                                     *m_multigrid, flesh_stiffening());
+    if (parameters.contact.gap > 0)
+        m_contact = std::make_unique<SkinContact>(m_mesh, m_multigrid->order(),
+                                                  parameters.contact.gap * parameters.fruit.skin_thickness,
+                                                  parameters.contact.stiffness);
+    m_newton = std::make_unique<NewtonSolver>(*m_elasticity, m_contact.get());
     m_skin_rest = m_mesh.level_positions(m_mesh.layers);
     m_skin_areas = geometry::vertex_areas(m_skin_rest, m_mesh.faces());
     m_slow = std::make_unique<geometry::SlowField>(m_mesh.directions, m_skin_areas);
@@ -60,7 +66,7 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     // ratio it is of the size of the shear forces that shape the wrinkles.
     constexpr double kReferenceShrinkage = 0.01;
     AlignedArray<double> force(m_elasticity->size());
-    m_elasticity->set_drying(m_drying.at(kReferenceShrinkage));
+    m_elasticity->set_drying(walled(m_drying.at(kReferenceShrinkage)));
     m_elasticity->energy(m_state.displacements.front(), &force);
     m_reference_force = norm_of(force) / parameters.material.bulk_ratio;
 }
@@ -119,14 +125,20 @@ bool DryingPath::attempt(double target, const RunContext& context) {
         const StepRecord last = m_state.history.empty() ? StepRecord{} : m_state.history.back();
         record = {increment.to.parameter, increment.to.shrinkage,   last.depth_rms,
                   last.elastic_energy,    last.viscous_work,        last.smallest_volume_ratio,
-                  record.newton_steps,    record.linear_iterations, record.failures};
+                  record.newton_steps,    record.linear_iterations, record.failures,
+                  last.contacts};
         m_state.course = std::move(increment.to);
         return true;
     }
     const AlignedArray<double>& start = m_state.displacements.front();
     const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
-    m_elasticity->set_drying(increment.field);
+    m_elasticity->set_drying(with_set(walled(increment.field), m_state.set, m_mesh.layers));
     AlignedArray<double> displacement = predict(step);
+    if (m_contact != nullptr) {
+        const double part = m_contact->free_part(start, displacement);
+        for (std::size_t i = 0; part < 1 && i < start.size(); ++i)
+            displacement[i] = start[i] + part * (displacement[i] - start[i]);
+    }
     if (!(m_newton->potential(displacement, damping) < m_newton->potential(start, damping)))
         displacement = start;
 
@@ -155,13 +167,21 @@ void DryingPath::take(CourseIncrement increment, AlignedArray<double> displaceme
     record.smallest_volume_ratio = result.smallest_volume_ratio;
     // The viscous force c M du/dt works over du: twice the damping's part of the potential.
     record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
-                          2 * (result.potential - result.elastic_energy);
+                          2 * (result.potential - result.elastic_energy - result.contact.energy);
+    record.contacts = result.contact.pairs;
     set_step_after(increment, result);
     m_state.course = std::move(increment.to);
     m_state.displacements.insert(m_state.displacements.begin(), std::move(displacement));
     m_state.past_steps.insert(m_state.past_steps.begin(), increment.change);
     if (m_state.displacements.size() > 3) m_state.displacements.pop_back();
     if (m_state.past_steps.size() > 2) m_state.past_steps.pop_back();
+    if (increment.turns) {
+        // Equilibria of the way up say nothing about the way down.
+        m_state.past_steps.clear();
+        m_state.displacements.resize(1);
+    }
+    const YieldStrains yield{m_parameters.plastic.flesh_yield_strain, m_parameters.plastic.skin_yield_strain};
+    if (yield.any()) flow(m_state.set, m_mesh, positions(), drying_field(), yield);
 }
 
 void DryingPath::set_step_after(const CourseIncrement& increment, const NewtonResult& result) {

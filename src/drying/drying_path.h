@@ -1,5 +1,6 @@
 #pragma once
-// The equilibria of a body as its shrinkage grows: increments with predictor, trust region and step control.
+// The equilibria of a body as its shrinkage grows, or falls again: increments with predictor, trust region
+// and step control.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -7,6 +8,8 @@
 #include "core/run_context.h"
 #include "drying/drying_course.h"
 #include "drying/newton.h"
+#include "drying/plastic_set.h"
+#include "drying/segments.h"
 #include "geometry/smooth_surface.h"
 
 namespace windfall::drying {
@@ -28,6 +31,7 @@ struct StepRecord {
     int newton_steps = 0;  ///< with those of failed attempts before
     int linear_iterations = 0;
     int failures = 0;  ///< attempts that were given up before this one
+    int contacts = 0;  ///< pairs of parts of the skin closer than the contact's gap
 };
 
 /// Everything that the way ahead depends on; a checkpoint is this and nothing else.
@@ -36,6 +40,7 @@ struct PathState {
     double next_step = 0;            ///< largest change of an element's shrinkage in the next increment
     std::vector<double> past_steps;  ///< such changes in the last increments, latest first; at most 2
     std::vector<AlignedArray<double>> displacements;  ///< now, and after the increments before; at most 3
+    PlasticSet set;                                   ///< empty before the first flow
     std::vector<StepRecord> history;
     StepRecord pending;  ///< attempts since the last accepted increment: counts only
 };
@@ -61,7 +66,7 @@ class DryingPath {
     /// Of the flesh as a whole.
     double shrinkage() const { return m_state.course.shrinkage; }
     /// Fd of every element now.
-    DryingField drying_field() const { return m_course->field(m_state.course); }
+    DryingField drying_field() const { return walled(m_course->field(m_state.course)); }
     const DryingCourse& course() const { return *m_course; }
     /// Shrinkage at which the skin's depth passed a tenth of its thickness; negative before that.
     double onset() const;
@@ -69,7 +74,14 @@ class DryingPath {
     const geometry::LayeredMesh& mesh() const { return m_mesh; }
     Elasticity& elasticity() { return *m_elasticity; }
     NewtonSolver& newton() { return *m_newton; }
+    /// Null where the skin may pass through itself.
+    SkinContact* contact() { return m_contact.get(); }
     const RecipeDrying& drying() const { return m_drying; }
+    /// Factors of the flesh's moduli by quad of the brick; empty: 1 everywhere.
+    std::vector<double> flesh_stiffening() const { return wall_stiffening(m_walls, m_parameters.segments); }
+    /// The stretch of the stress-free state, element by element, now: of drying and of plastic set. Valid
+    /// while the path stands still.
+    DryingField stress_free() const { return with_set(drying_field(), m_state.set, m_mesh.layers); }
     double reference_force() const { return m_reference_force; }
 
     /// Nodes now: [column * layers + k], in the brick's order.
@@ -78,6 +90,10 @@ class DryingPath {
     std::vector<double> skin_depth() const;
 
   private:
+    /// Adds the walls of segments to a field of the course.
+    DryingField walled(DryingField field) const {
+        return with_walls(std::move(field), m_walls, m_parameters.segments, m_mesh.flesh_layers);
+    }
     bool attempt(double target, const RunContext& context);
     void take(CourseIncrement increment, AlignedArray<double> displacement, const NewtonResult& result);
     void set_step_after(const CourseIncrement& increment, const NewtonResult& result);
@@ -89,8 +105,10 @@ class DryingPath {
     DryingParameters m_parameters;
     RecipeDrying m_drying;
     std::unique_ptr<DryingCourse> m_course;
+    std::vector<double> m_walls;  ///< see segments.h
     std::unique_ptr<Multigrid> m_multigrid;
     std::unique_ptr<Elasticity> m_elasticity;
+    std::unique_ptr<SkinContact> m_contact;
     std::unique_ptr<NewtonSolver> m_newton;
     std::vector<geometry::Vec3> m_skin_rest;
     std::vector<double> m_skin_areas;

@@ -97,7 +97,9 @@ class Run {
     void after_step() {
         const StepRecord& step = m_path.state().history.back();
         const double total = m_frames.back();
-        m_context.progress({"drying", step.parameter, total,
+        const bool rewetting =
+            !m_parameters.moisture.on() && step.parameter > m_parameters.drying.shrinkage;
+        m_context.progress({rewetting ? "rewetting" : "drying", step.parameter, total,
                             m_time_left.estimate(step.parameter, total, seconds()),
                             fmt::format("shrinkage {:.3f}, depth {:.2f} t_e", step.shrinkage,
                                         step.depth_rms / m_parameters.fruit.skin_thickness)});
@@ -131,6 +133,7 @@ class Run {
             history["newton_steps"].push_back(r.newton_steps);
             history["linear_iterations"].push_back(r.linear_iterations);
             history["failures"].push_back(r.failures);
+            history["contacts"].push_back(r.contacts);
             newton += r.newton_steps;
             linear += r.linear_iterations;
             failures += r.failures;

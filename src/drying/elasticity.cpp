@@ -17,19 +17,28 @@ LayerModuli layer_moduli(int flesh_layers, int layers, double gamma, double bulk
     return moduli;
 }
 
-Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid)
+Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid,
+                       const std::vector<double>& flesh_stiffening)
     : m_multigrid(multigrid),
+      m_moduli_stride(flesh_stiffening.empty() ? 0 : mesh.layers),
       m_rest(multigrid.vector_size()),
       m_base(mesh.columns() * 3),
-      m_shear(moduli.shear.size()),
-      m_bulk(moduli.bulk.size()),
+      m_shear(moduli.shear.size() * std::max<std::size_t>(1, flesh_stiffening.size())),
+      m_bulk(m_shear.size()),
       m_dehydration(mesh.brick.quads.size() * 7 * mesh.layers),
       m_mass(mesh.columns() * mesh.layers),
       m_mean_weights(mesh.columns() * mesh.layers) {
     const ColumnOrder& order = multigrid.order();
     const auto layers = static_cast<std::size_t>(mesh.layers);
-    std::copy(moduli.shear.begin(), moduli.shear.end(), m_shear.begin());
-    std::copy(moduli.bulk.begin(), moduli.bulk.end(), m_bulk.begin());
+    for (std::size_t i = 0; i < m_shear.size(); ++i) {
+        const std::size_t layer = i % layers;
+        const bool stiffened =
+            !flesh_stiffening.empty() && layer < static_cast<std::size_t>(mesh.flesh_layers);
+        const double factor =
+            stiffened ? flesh_stiffening[static_cast<std::size_t>(order.brick_quad[i / layers])] : 1;
+        m_shear[i] = factor * moduli.shear[layer];
+        m_bulk[i] = factor * moduli.bulk[layer];
+    }
     for (std::size_t c = 0; c < mesh.columns(); ++c) {
         const std::int32_t vertex = order.vertex_of_solver[c];
         for (std::size_t i = 0; i < 3; ++i) {
@@ -79,7 +88,8 @@ ElementArrays Elasticity::arrays() const {
             m_base.data(),
             m_shear.data(),
             m_bulk.data(),
-            m_dehydration.data()};
+            m_dehydration.data(),
+            m_moduli_stride};
 }
 
 ElasticEnergy Elasticity::energy(const AlignedArray<double>& displacement,

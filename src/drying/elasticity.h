@@ -31,7 +31,9 @@ struct ElasticEnergy {
 class Elasticity {
   public:
     /// Keeps a reference to `multigrid`, whose finest matrix it assembles into, and copies all else.
-    Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid);
+    /// `flesh_stiffening`: by quad of the brick, factors of the moduli of its flesh; empty: 1 everywhere.
+    Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid,
+               const std::vector<double>& flesh_stiffening = {});
 
     /// Sets Fd of every element. Fd = I, the fresh state, at first.
     void set_drying(const DryingField& field);
@@ -54,6 +56,7 @@ class Elasticity {
     ElementArrays arrays() const;
 
     Multigrid& m_multigrid;
+    std::int64_t m_moduli_stride = 0;
     AlignedArray<double> m_rest, m_base, m_shear, m_bulk, m_dehydration, m_mass;
     AlignedArray<float> m_mean_weights;
 };

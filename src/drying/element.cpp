@@ -50,6 +50,19 @@ double hexahedron_volume(const HexNodes& nodes) {
     return volume;
 }
 
+Eigen::Matrix3d mean_deformation(const HexNodes& rest, const HexNodes& now) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    double volume = 0;
+    for (int g = 0; g < 8; ++g) {
+        const Gradients gradients = shape_gradients(g);
+        const Eigen::Matrix3d rest_jacobian = jacobian(rest, gradients);
+        const double w = rest_jacobian.determinant();
+        sum += w * jacobian(now, gradients) * rest_jacobian.inverse();
+        volume += w;
+    }
+    return sum / volume;
+}
+
 HexResponse hexahedron_response(const HexNodes& rest, const HexNodes& now, const HexMaterial& material) {
     HexResponse response;
     response.gradient.setZero();

@@ -16,6 +16,9 @@ HexNodes element_nodes(const geometry::LayeredMesh& mesh, std::size_t quad, int 
 
 double hexahedron_volume(const HexNodes& nodes);
 
+/// Deformation gradient dx/dX, mean over the rest volume.
+Eigen::Matrix3d mean_deformation(const HexNodes& rest, const HexNodes& now);
+
 struct HexMaterial {
     double shear = 1;
     double bulk = 1;

@@ -25,9 +25,10 @@ struct SolidSums {
 SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
                        const std::vector<Vec3>& nodes) {
     const LayeredMesh& mesh = path.mesh();
-    const DryingField drying = path.drying_field();
+    const DryingField drying = path.stress_free();
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);
+    const std::vector<double> stiffening = path.flesh_stiffening();
     SolidSums sums;
     sums.volume_ratio.assign(mesh.columns(), 0);
     sums.pressure.assign(mesh.columns(), 0);
@@ -36,7 +37,8 @@ SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameter
     now.nodes = nodes;
     for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q) {
         for (int k = 0; k < mesh.layers; ++k) {
-            const HexMaterial material{moduli.shear[k], moduli.bulk[k], drying(q, k)};
+            const double factor = stiffening.empty() || k >= mesh.flesh_layers ? 1 : stiffening[q];
+            const HexMaterial material{factor * moduli.shear[k], factor * moduli.bulk[k], drying(q, k)};
             const HexState state =
                 hexahedron_state(element_nodes(mesh, q, k), element_nodes(now, q, k), material);
             (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += state.rest_volume;

@@ -21,6 +21,13 @@ double norm(const AlignedArray<double>& a) {
     }));
 }
 
+/// to = from + part (to - from)
+void draw_back(AlignedArray<double>& to, const AlignedArray<double>& from, double part) {
+    parallel_blocks(to.size(), kNewtonBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) to[i] = from[i] + part * (to[i] - from[i]);
+    });
+}
+
 bool accepts(double trial_potential, double start_potential) {
     return trial_potential <= start_potential + kRounding * std::abs(start_potential);
 }
@@ -29,9 +36,13 @@ bool accepts(double trial_potential, double start_potential) {
 
 bool NewtonSolver::State::valid() const { return std::isfinite(potential); }
 
-NewtonSolver::NewtonSolver(Elasticity& elasticity)
+NewtonSolver::NewtonSolver(Elasticity& elasticity, SkinContact* contact)
     : m_elasticity(elasticity),
-      m_linear(elasticity.multigrid(), elasticity.mean_weights()),
+      m_contact(contact),
+      m_linear(
+          elasticity.multigrid(), elasticity.mean_weights(),
+          contact == nullptr ? AddedProduct()
+                             : [contact](const float* x, float* y) { contact->add_product(x, y); }),
       m_current(elasticity.size()),
       m_trial(elasticity.size()),
       m_corrected(elasticity.size()),
@@ -61,21 +72,34 @@ double NewtonSolver::damping_energy(const AlignedArray<double>& displacement, co
     return 0.5 * damping.factor * sum;
 }
 
-void NewtonSolver::evaluate(State& state, const Damping& damping) {
+void NewtonSolver::evaluate(State& state, const Damping& damping, const State* from) {
     const PhaseTimer timer(m_times.energy_s);
-    const ElasticEnergy elastic = m_elasticity.energy(state.displacement, &state.force);
+    ElasticEnergy elastic = m_elasticity.energy(state.displacement, &state.force);
+    if (m_contact != nullptr && from != nullptr && elastic.valid()) {
+        const double part = m_contact->free_part(from->displacement, state.displacement);
+        if (part < 1) {
+            draw_back(state.displacement, from->displacement, part);
+            elastic = m_elasticity.energy(state.displacement, &state.force);
+        }
+    }
     state.elastic_energy = elastic.energy;
     state.smallest_volume_ratio = elastic.smallest_volume_ratio;
     state.potential = elastic.valid()
                           ? elastic.energy + damping_energy(state.displacement, damping, &state.force)
                           : std::numeric_limits<double>::infinity();
+    state.contact = {};
+    if (m_contact != nullptr && elastic.valid()) {
+        state.contact = m_contact->energy(state.displacement, &state.force);
+        state.potential += state.contact.energy;
+    }
     state.force_norm = elastic.valid() ? norm(state.force) : std::numeric_limits<double>::infinity();
 }
 
 double NewtonSolver::potential(const AlignedArray<double>& displacement, const Damping& damping) const {
     const ElasticEnergy elastic = m_elasticity.energy(displacement, nullptr);
     if (!elastic.valid()) return std::numeric_limits<double>::infinity();
-    return elastic.energy + damping_energy(displacement, damping, nullptr);
+    return elastic.energy + damping_energy(displacement, damping, nullptr) +
+           (m_contact == nullptr ? 0 : m_contact->energy(displacement, nullptr).energy);
 }
 
 LinearResult NewtonSolver::linear_step(const State& at, double tolerance, int max_iterations, double radius,
@@ -96,10 +120,12 @@ LinearResult NewtonSolver::newton_step(const State& at, const Damping& damping, 
     // definite matrix. The direction found is still one of descent.
     LinearResult result;
     result.status = LinearStatus::NotDefinite;
+    if (m_contact != nullptr) m_contact->linearize(at.displacement);
     for (const double softening : {0.0, 0.02, 0.04, 0.08, 0.16, 0.32, 0.64, 1.0}) {
         {
             const PhaseTimer timer(m_times.assembly_s);
             m_elasticity.assemble(at.displacement, 1 - softening, damping.factor);
+            if (m_contact != nullptr) m_contact->add_to_diagonal(m_elasticity.multigrid().matrix());
         }
         bool definite = false;
         {
@@ -143,11 +169,23 @@ int NewtonSolver::correct(State& trial, const State& start, double step_length, 
         linear_iterations += linear.iterations;
         if (linear.status == LinearStatus::NotDefinite) break;
         take_step(trial, m_corrected, settings.reference_force);
-        evaluate(m_corrected, damping);
+        evaluate(m_corrected, damping, &trial);
         if (!(m_corrected.potential < trial.potential)) break;
         std::swap(trial, m_corrected);
     }
     return corrections;
+}
+
+/// The quadratic model knows nothing of pairs that only now come closer than the gap: halves a step that
+/// they pushed uphill. False where that does not help.
+bool NewtonSolver::shorten(State& trial, const State& start, const Damping& damping) {
+    constexpr int kHalvings = 6;
+    for (int i = 0; i < kHalvings && trial.valid() && trial.contact.pairs > 0; ++i) {
+        draw_back(trial.displacement, start.displacement, 0.5);
+        evaluate(trial, damping, &start);
+        if (trial.valid() && accepts(trial.potential, start.potential)) return true;
+    }
+    return false;
 }
 
 NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Damping& damping,
@@ -182,10 +220,11 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
         if (linear.status == LinearStatus::NegativeCurvature) result.indefinite = true;
         const double step_length = std::sqrt(m_linear.mass_dot(m_step, m_step)) * settings.reference_force;
         take_step(m_current, m_trial, settings.reference_force);
-        evaluate(m_trial, damping);
+        evaluate(m_trial, damping, &m_current);
         const int corrections =
             correct(m_trial, m_current, step_length, damping, settings, context, result.linear_iterations);
-        rejected = !(m_trial.valid() && accepts(m_trial.potential, m_current.potential));
+        rejected = !(m_trial.valid() && accepts(m_trial.potential, m_current.potential)) &&
+                   !shorten(m_trial, m_current, damping);
         if (!rejected) {
             last_norm = m_current.force_norm;
             std::swap(m_current, m_trial);
@@ -203,6 +242,7 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
     result.converged = m_current.valid() && at_minimum();
     result.potential = m_current.potential;
     result.elastic_energy = m_current.elastic_energy;
+    result.contact = m_current.contact;
     result.smallest_volume_ratio = m_current.smallest_volume_ratio;
     result.residual = m_current.force_norm / settings.reference_force;
     std::swap(m_current.displacement, displacement);

@@ -9,6 +9,7 @@
 #include "drying/conjugate_gradients.h"
 #include "drying/elasticity.h"
 #include "drying/phase_times.h"
+#include "drying/skin_contact.h"
 
 namespace windfall::drying {
 
@@ -35,6 +36,7 @@ struct NewtonResult {
     int rejections = 0;
     double potential = 0;
     double elastic_energy = 0;
+    ContactEnergy contact;
     double residual = 0;  ///< norm of the out-of-balance force over the reference force
     double smallest_volume_ratio = 0;
     bool indefinite = false;         ///< negative curvature or an indefinite tangent was met
@@ -43,7 +45,9 @@ struct NewtonResult {
 
 class NewtonSolver {
   public:
-    explicit NewtonSolver(Elasticity& elasticity);
+    /// With `contact` not null the potential holds its energy, and no step passes through the skin. Keeps
+    /// both.
+    explicit NewtonSolver(Elasticity& elasticity, SkinContact* contact = nullptr);
 
     /// Minimises from `displacement`, which holds the minimum when the result says converged and is
     /// unspecified otherwise. Throws Cancelled.
@@ -61,12 +65,15 @@ class NewtonSolver {
         AlignedArray<double> displacement, force;
         double potential = 0;
         double elastic_energy = 0;
+        ContactEnergy contact;
         double smallest_volume_ratio = 0;
         double force_norm = 0;
         bool valid() const;
         explicit State(std::size_t size) : displacement(size), force(size) {}
     };
-    void evaluate(State& state, const Damping& damping);
+    /// With `from` not null the state is first drawn back along its way from there, so far that nothing
+    /// passes through the skin.
+    void evaluate(State& state, const Damping& damping, const State* from = nullptr);
     double damping_energy(const AlignedArray<double>& displacement, const Damping& damping,
                           AlignedArray<double>* force) const;
     LinearResult linear_step(const State& at, double tolerance, int max_iterations, double radius,
@@ -74,10 +81,12 @@ class NewtonSolver {
     LinearResult newton_step(const State& at, const Damping& damping, double tolerance, double radius,
                              const NewtonSettings& settings, const RunContext& context, bool& indefinite);
     void take_step(const State& from, State& to, double reference_force) const;
+    bool shorten(State& trial, const State& start, const Damping& damping);
     int correct(State& trial, const State& start, double step_length, const Damping& damping,
                 const NewtonSettings& settings, const RunContext& context, int& linear_iterations);
 
     Elasticity& m_elasticity;
+    SkinContact* m_contact;
     ConjugateGradients m_linear;
     PhaseTimes m_times;
     State m_current, m_trial, m_corrected;

@@ -53,6 +53,10 @@ void add_physics(Table& t) {
           "linear shrinkage of the flesh, 1 - theta, at the end; the flesh keeps (1 - shrinkage)^3 of its "
           "volume. With moisture.hours the most that any flesh shrinks",
           {.minimum = 0.001, .below = 1});
+    t.add("drying.rewet", "1", [](auto& p) -> auto& { return p.drying.rewet; },
+          "part of the shrinkage that the flesh takes back after drying, swelling with water again; 1: all "
+          "of it",
+          {.minimum = 0, .maximum = 1});
     t.add("drying.skin_fraction", "1", [](auto& p) -> auto& { return p.drying.skin_fraction; },
           "shrinkage of the skin as a fraction of the flesh's; 1: no wrinkles", {.minimum = 0, .maximum = 1});
     t.add("drying.radial", "1", [](auto& p) -> auto& { return p.drying.radial; },
@@ -62,6 +66,41 @@ void add_physics(Table& t) {
     t.add("drying.latitudinal", "1", [](auto& p) -> auto& { return p.drying.latitudinal; },
           "shrinkage along the circles of latitude, as a multiple of drying.shrinkage",
           {.minimum = 0, .maximum = 3});
+}
+
+void add_segments(Table& t) {
+    t.add("segments.count", "1", [](auto& p) -> auto& { return p.segments.count; },
+          "segments of the flesh around the axis, as in a mandarin (10) or a pepper (4), with a wall between "
+          "each two; 0: none",
+          {.minimum = 0, .maximum = 100});
+    t.add("segments.wall_width", "1", [](auto& p) -> auto& { return p.segments.wall_width; },
+          "width of a wall, as a part of the angle of a segment", {.maximum = 1, .above = 0});
+    t.add("segments.wall_stiffness", "1", [](auto& p) -> auto& { return p.segments.wall_stiffness; },
+          "shear modulus of the walls over that of the flesh", {.minimum = 0.01, .maximum = 1e3});
+    t.add("segments.wall_shrinkage", "1", [](auto& p) -> auto& { return p.segments.wall_shrinkage; },
+          "shrinkage of the walls as a fraction of the flesh's; the less, the more they stand out as ribs",
+          {.minimum = 0, .maximum = 1});
+}
+
+void add_plastic(Table& t) {
+    t.add("plastic.flesh_yield_strain", "1", [](auto& p) -> auto& { return p.plastic.flesh_yield_strain; },
+          "plastic set: equivalent elastic strain from which the flesh keeps a deformation for good; 0: it "
+          "never does",
+          {.minimum = 0, .maximum = 10});
+    t.add("plastic.skin_yield_strain", "1", [](auto& p) -> auto& { return p.plastic.skin_yield_strain; },
+          "the same of the skin; with it, wrinkles stay when the fruit is rewetted",
+          {.minimum = 0, .maximum = 10});
+}
+
+void add_contact(Table& t) {
+    t.add("contact.gap", "t_e", [](auto& p) -> auto& { return p.contact.gap; },
+          "distance below which folds of the skin press on each other, in skin thicknesses: 0.15 is a good "
+          "one; 0: they pass through each other",
+          {.minimum = 0, .maximum = 1});
+    t.add("contact.stiffness", "C0", [](auto& p) -> auto& { return p.contact.stiffness; },
+          "pressure of two flat folds at half the gap, about; larger: folds stay further apart, and more "
+          "increments",
+          {.minimum = 1e-3, .maximum = 1e3});
 }
 
 void add_numerics(Table& t) {
@@ -120,6 +159,9 @@ Table make_table() {
     add_fruit(t);
     add_physics(t);
     add_moisture(t);
+    add_segments(t);
+    add_plastic(t);
+    add_contact(t);
     add_numerics(t);
     t.add("output.frames", "1", [](auto& p) -> auto& { return p.output.frames; },
           "number of frames at even shrinkages or hours, the fresh fruit being the first",

@@ -27,8 +27,26 @@ struct MaterialParameters {
 
 struct ShrinkageParameters {
     double shrinkage = 0.3;
+    double rewet = 0;
     double skin_fraction = 0;
     double radial = 1, meridional = 1, latitudinal = 1;
+};
+
+struct SegmentParameters {
+    std::int64_t count = 0;
+    double wall_width = 0.15;
+    double wall_stiffness = 10;
+    double wall_shrinkage = 0.3;
+};
+
+struct PlasticParameters {
+    double flesh_yield_strain = 0;
+    double skin_yield_strain = 0;
+};
+
+struct ContactParameters {
+    double gap = 0;
+    double stiffness = 50;
 };
 
 struct MeshParameters {
@@ -71,6 +89,9 @@ struct DryingParameters {
     ShrinkageParameters drying;
     MoistureParameters moisture;
     water::ClimateParameters climate;
+    SegmentParameters segments;
+    PlasticParameters plastic;
+    ContactParameters contact;
     MeshParameters mesh;
     ImperfectionParameters imperfection;
     SolverParameters solver;
@@ -84,7 +105,8 @@ const ParameterTable<DryingParameters>& drying_parameters();
 /// end. Throws InputError with the keys concerned and the remedy.
 void check(const DryingParameters& parameters);
 
-/// The shrinkages at which frames are taken, rising, the first 0 and the last `drying.shrinkage`.
+/// The shrinkages at which frames are taken: from 0 up to `drying.shrinkage`, and from there down again as
+/// far as the fruit is rewetted. All three are among them.
 std::vector<double> frame_shrinkages(const DryingParameters& parameters);
 
 /// The path's parameters at which frames are taken: hours where the fruit dries by the hour, else shrinkages.

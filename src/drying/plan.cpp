@@ -50,6 +50,8 @@ void check(const DryingParameters& p) {
 
 namespace {
 
+constexpr double kSameStop = 1e-9;  // rounding of even parts
+
 /// `listed`, 0 and `end`, rising; with nothing listed, `count` even ones.
 std::vector<double> frame_stops(std::vector<double> listed, std::int64_t count, double end) {
     if (listed.empty()) {
@@ -60,19 +62,37 @@ std::vector<double> frame_stops(std::vector<double> listed, std::int64_t count, 
     listed.push_back(0);
     listed.push_back(end);
     std::sort(listed.begin(), listed.end());
-    listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+    listed.erase(std::unique(listed.begin(), listed.end(),
+                             [](double a, double b) { return b - a < kSameStop; }),
+                 listed.end());
     return listed;
+}
+
+/// The way up to `drying.shrinkage` and down again as far as the fruit is rewetted.
+std::vector<double> way_stops(const DryingParameters& p) {
+    const double most = p.drying.shrinkage;
+    const double way = most * (1 + p.drying.rewet);
+    if (p.drying.rewet == 0) return frame_stops(p.output.shrinkages, p.output.frames, most);
+    std::vector<double> listed{most};  // the turn is always taken
+    for (std::int64_t i = 0; p.output.shrinkages.empty() && i < p.output.frames; ++i)
+        listed.push_back(way * static_cast<double>(i) / static_cast<double>(p.output.frames - 1));
+    for (const double shrinkage : p.output.shrinkages) {
+        listed.push_back(shrinkage);
+        if (2 * most - shrinkage < way) listed.push_back(2 * most - shrinkage);
+    }
+    return frame_stops(listed, p.output.frames, way);
 }
 
 }  // namespace
 
 std::vector<double> frame_shrinkages(const DryingParameters& p) {
-    return frame_stops(p.output.shrinkages, p.output.frames, p.drying.shrinkage);
+    std::vector<double> stops = way_stops(p);
+    for (double& stop : stops) stop = shrinkage_on_way(stop, p.drying.shrinkage);
+    return stops;
 }
 
 std::vector<double> frame_parameters(const DryingParameters& p) {
-    return p.moisture.on() ? frame_stops(p.output.hours, p.output.frames, p.moisture.hours)
-                           : frame_shrinkages(p);
+    return p.moisture.on() ? frame_stops(p.output.hours, p.output.frames, p.moisture.hours) : way_stops(p);
 }
 
 Plan plan(const DryingParameters& parameters) {

@@ -74,6 +74,24 @@ TEST(DryingParameters, FramesBeginFreshAndEndDry) {
     EXPECT_EQ(frame_shrinkages(p), (std::vector<double>{0, 0.1, 0.2, p.drying.shrinkage}));
 }
 
+TEST(DryingParameters, FramesOfRewettingGoUpAndDown) {
+    DryingParameters p;
+    p.drying.shrinkage = 0.2;
+    p.drying.rewet = 0.5;
+    p.output.shrinkages = {0.05, 0.15};
+    const std::vector<double> asked{0, 0.05, 0.15, 0.2, 0.15, 0.1};
+    ASSERT_EQ(frame_shrinkages(p).size(), asked.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) EXPECT_NEAR(frame_shrinkages(p)[i], asked[i], 1e-12);
+    p.output.shrinkages.clear();
+    p.output.frames = 3;
+    // Even parts of the way, the turn and the end.
+    const std::vector<double> frames = frame_shrinkages(p);
+    ASSERT_EQ(frames.size(), 4U);
+    EXPECT_NEAR(frames[1], 0.15, 1e-12);
+    EXPECT_EQ(frames[2], 0.2);
+    EXPECT_NEAR(frames[3], 0.1, 1e-12);
+}
+
 TEST(Plan, BaseCaseIsThePrototypesMesh) {
     const Plan base = plan(DryingParameters{});
     EXPECT_EQ(base.n, 48);

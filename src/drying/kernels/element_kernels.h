@@ -136,13 +136,13 @@ template <int L, bool with_force>
 inline EnergySums energy_of_quads(const ElementArrays& e, const double* displacement, double* force,
                                   Range quads) {
     using D = typename LaneTypes<L>::D;
-    const D mu = *reinterpret_cast<const D*>(e.shear);
-    const D kappa = *reinterpret_cast<const D*>(e.bulk);
-    const D zero = mu - mu;
+    const D zero = D{};
     D energy = zero;
     D smallest = zero + 1e30;
     for (int quad = quads.begin; quad < quads.end; ++quad) {
         const Nodes<L> nodes(e, displacement, quad);
+        const D mu = *reinterpret_cast<const D*>(e.shear + quad * e.moduli_stride);
+        const D kappa = *reinterpret_cast<const D*>(e.bulk + quad * e.moduli_stride);
         const D* dehydration =
             reinterpret_cast<const D*>(e.dehydration + static_cast<std::int64_t>(quad) * 7 * L);
         const D jd = dehydration[0];
@@ -234,8 +234,8 @@ inline void tangent_data(const ElementArrays& e, const double* displacement, int
     using D = typename LaneTypes<L>::D;
     using F = typename LaneTypes<L>::F;
     const Nodes<L> nodes(e, displacement, quad);
-    const D mu = *reinterpret_cast<const D*>(e.shear);
-    const D kappa = *reinterpret_cast<const D*>(e.bulk);
+    const D mu = *reinterpret_cast<const D*>(e.shear + quad * e.moduli_stride);
+    const D kappa = *reinterpret_cast<const D*>(e.bulk + quad * e.moduli_stride);
     const D* dehydration =
         reinterpret_cast<const D*>(e.dehydration + static_cast<std::int64_t>(quad) * 7 * L);
     const D jd = dehydration[0];

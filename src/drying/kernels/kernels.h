@@ -16,9 +16,10 @@ struct ElementArrays {
     const std::int32_t (*quads)[4];  ///< columns at the corners, counter-clockwise from outside
     const double* rest;              ///< [column][3][L] fresh positions
     const double* base;              ///< [column][3] positions on the stone, fixed
-    const double* shear;             ///< [L] shear modulus mu
-    const double* bulk;              ///< [L] bulk modulus kappa
+    const double* shear;             ///< [quad][L] shear modulus mu, or [L] of all quads
+    const double* bulk;              ///< [quad][L] bulk modulus kappa, or [L]
     const double* dehydration;       ///< [quad][7][L] det Fd, then Fd^-1 Fd^-T: xx, xy, xz, yy, yz, zz
+    std::int64_t moduli_stride = 0;  ///< between the moduli of two quads: L, or 0 where all are alike
 };
 
 /// Symmetric block matrix over columns, lower triangle in solver order. A block couples lane k of the row's
