@@ -4,7 +4,9 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <memory>
 
+#include "drying/artist_skin.h"
 #include "drying/checkpoint.h"
 #include "drying/frame_maker.h"
 #include "drying/imperfection.h"
@@ -43,13 +45,17 @@ class TimeLeft {
 
 class Run {
   public:
-    Run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-        std::span<const std::byte> checkpoint)
+    /// `fruit` null: the ten numbers.
+    Run(const DryingParameters& parameters, const ArtistFruit* fruit, take::FrameSink& sink,
+        const RunContext& context, std::span<const std::byte> checkpoint)
         : m_parameters(parameters),
+          m_fruit(fruit),
           m_sink(sink),
           m_context(context),
           m_frames(frame_shrinkages(parameters)),
           m_path(fresh_mesh(), parameters) {
+        if (fruit != nullptr && parameters.fruit.uvs == TakeSkin::Own)
+            m_artist_skin = std::make_unique<ArtistSkin>(*fruit, m_path.mesh());
         if (!checkpoint.empty()) {
             Checkpoint saved = checkpoint_from(checkpoint, m_path.elasticity().size());
             m_frames_done = saved.frames_done;
@@ -59,11 +65,14 @@ class Run {
     }
 
     void go() {
-        if (m_frames_done == 0) m_sink.add_mesh(skin_mesh(m_path.mesh()));
+        if (m_frames_done == 0)
+            m_sink.add_mesh(m_artist_skin ? m_artist_skin->take_mesh() : skin_mesh(m_path.mesh()));
         try {
             while (m_frames_done < static_cast<int>(m_frames.size())) {
                 m_path.advance(m_frames[m_frames_done], m_context, [this] { after_step(); });
-                m_sink.add_frame(make_frame(m_path, m_parameters, m_frames_done));
+                take::Frame frame = make_frame(m_path, m_parameters, m_frames_done);
+                if (m_artist_skin) m_artist_skin->carry(frame);
+                m_sink.add_frame(frame);
                 ++m_frames_done;
                 save();
             }
@@ -80,8 +89,9 @@ class Run {
     geometry::LayeredMesh fresh_mesh() {
         m_context.progress({"meshing", 0, m_parameters.drying.shrinkage, -1, ""});
         check(m_parameters);
-        const auto shape = make_shape(m_parameters.fruit);
-        geometry::LayeredMesh mesh = make_mesh(m_parameters, *shape);
+        geometry::LayeredMesh mesh = m_fruit != nullptr
+                                         ? make_mesh(m_parameters, *m_fruit)
+                                         : make_mesh(m_parameters, *make_shape(m_parameters.fruit));
         add_imperfection(mesh, m_parameters, m_context);
         return mesh;
     }
@@ -155,11 +165,13 @@ class Run {
     }
 
     DryingParameters m_parameters;
+    const ArtistFruit* m_fruit;
     take::FrameSink& m_sink;
     const RunContext& m_context;
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
     std::vector<double> m_frames;
     DryingPath m_path;
+    std::unique_ptr<ArtistSkin> m_artist_skin;  ///< null where the take has the solver's skin
     int m_frames_done = 0;
     double m_elapsed_before_s = 0;
     double m_last_checkpoint_s = 0;
@@ -170,7 +182,12 @@ class Run {
 
 void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
          std::span<const std::byte> checkpoint) {
-    Run(parameters, sink, context, checkpoint).go();
+    Run(parameters, nullptr, sink, context, checkpoint).go();
+}
+
+void run(const DryingParameters& parameters, const ArtistFruit& fruit, take::FrameSink& sink,
+         const RunContext& context, std::span<const std::byte> checkpoint) {
+    Run(parameters, &fruit, sink, context, checkpoint).go();
 }
 
 }  // namespace windfall::drying

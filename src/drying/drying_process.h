@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/run_context.h"
+#include "drying/artist_fruit.h"
 #include "drying/parameters.h"
 #include "take/frame_sink.h"
 
@@ -16,6 +17,9 @@ namespace windfall::drying {
 /// checkpoint.
 void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
          std::span<const std::byte> checkpoint = {});
+/// The same of an artist's mesh.
+void run(const DryingParameters& parameters, const ArtistFruit& fruit, take::FrameSink& sink,
+         const RunContext& context, std::span<const std::byte> checkpoint = {});
 
 /// What `run` will solve, for people and for warnings before a long run.
 struct Plan {
@@ -28,5 +32,6 @@ struct Plan {
     std::vector<std::string> warnings;  ///< each with the number to set
 };
 Plan plan(const DryingParameters& parameters);
+Plan plan(const DryingParameters& parameters, const ArtistFruit& fruit);
 
 }  // namespace windfall::drying

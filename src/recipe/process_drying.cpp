@@ -2,13 +2,15 @@
 
 #include "drying/drying_process.h"
 #include "drying/measure.h"
+#include "recipe/fruit_file.h"
 #include "recipe/process_entry.h"
 
 namespace windfall::recipe {
 namespace {
 
 RunPlan plan_drying(const Recipe& recipe) {
-    const drying::Plan plan = drying::plan(recipe.drying);
+    const auto fruit = read_fruit(recipe.drying);
+    const drying::Plan plan = fruit ? drying::plan(recipe.drying, *fruit) : drying::plan(recipe.drying);
     const double te = recipe.drying.fruit.skin_thickness;
     return {
         {{"mesh", fmt::format("{} x {} x {} brick, {} layers", plan.n, plan.n_axial, plan.n, plan.layers)},
@@ -40,12 +42,19 @@ Process drying_process() {
         {"valleys", "valleys", 0},
         {"ridge_meridian_alignment", "alignment", 3},
     };
-    process.check = [](const Recipe& recipe) { drying::check(recipe.drying); };
-    process.unit_length_m = [](const Recipe& recipe) { return recipe.drying.fruit.size_m; };
+    process.check = [](const Recipe& recipe) {
+        drying::check(recipe.drying);
+        // Files that cannot be read are told of before a take is begun.
+        read_meshes(recipe.drying);
+    };
+    process.unit_length_m = [](const Recipe& recipe) { return real_r1_m(recipe.drying); };
     process.plan = plan_drying;
     process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,
                      std::span<const std::byte> checkpoint) {
-        drying::run(recipe.drying, sink, context, checkpoint);
+        if (const auto fruit = read_fruit(recipe.drying))
+            drying::run(recipe.drying, *fruit, sink, context, checkpoint);
+        else
+            drying::run(recipe.drying, sink, context, checkpoint);
     };
     process.measure = drying::measure;
     return process;
