@@ -36,10 +36,10 @@ SurfaceSpot end_of_line(const CurvedSurface& surface, const SurfaceSpot& start, 
 
 }  // namespace
 
-LaidBrick brick_on_stone(const CurvedSurface& surface, const LaidBrick& laid, const CurvedSurface& stone) {
+LaidBrick brick_on_stone(const CurvedSurface& surface, const LaidBrick& laid, const CurvedSurface& stone,
+                         const StoneRelaxation& relaxation) {
     constexpr int kFewestCells = 6;
     constexpr std::size_t kMostLevels = 3;
-    constexpr int kSweeps = 50, kLastSweeps = 15;
     std::vector<Lattice> levels{laid.brick.cells};
     while (levels.size() < kMostLevels && can_coarsen(levels.back()) &&
            *std::min_element(levels.back().begin(), levels.back().end()) >= 2 * kFewestCells)
@@ -55,9 +55,10 @@ LaidBrick brick_on_stone(const CurvedSurface& surface, const LaidBrick& laid, co
         }
     });
     for (std::size_t level = levels.size(); level-- > 0;) {
-        if (level + 1 < levels.size()) on_stone = refined(stone, on_stone, make_brick_surface(levels[level]));
+        const bool coarsest = level + 1 == levels.size();
+        if (!coarsest) on_stone = refined(stone, on_stone, make_brick_surface(levels[level]));
         for (const double barrier : {0.5, 0.2, 0.05})
-            relax(stone, on_stone, {level == 0 ? kLastSweeps : kSweeps, barrier});
+            relax(stone, on_stone, {coarsest ? relaxation.coarsest : relaxation.finer, barrier});
     }
     return on_stone;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <queue>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -120,6 +121,23 @@ LayeredMesh layered(const SurfaceColumns& columns, const std::vector<Vec3>& outw
     return mesh;
 }
 
+/// The best of several meshes of one body.
+struct Soundest {
+    LayeredMesh mesh;
+    WorstCorner worst;
+
+    /// Gives whether no more need be tried.
+    bool take(LayeredMesh other) {
+        constexpr double kSound = 0.15;  // scaled Jacobian
+        const WorstCorner its = worst_corner(other);
+        if (mesh.nodes.empty() || its.scaled_jacobian > worst.scaled_jacobian) {
+            mesh = std::move(other);
+            worst = its;
+        }
+        return worst.scaled_jacobian > kSound;
+    }
+};
+
 [[noreturn]] void refuse_fold(const WorstCorner& worst, const char* remedy) {
     throw InputError(fmt::format("the layers of the mesh fold over near {} of its file: {}",
                                  place_text(worst.place), remedy));
@@ -128,38 +146,36 @@ LayeredMesh layered(const SurfaceColumns& columns, const std::vector<Vec3>& outw
 }  // namespace
 
 LayeredMesh layers_to_made_stone(const SurfaceColumns& columns, const MadeStone& stone) {
-    constexpr double kSound = 0.15;      // scaled Jacobian
     constexpr double kShallowest = 1.8;  // skins: no stone lies higher
     const Neighbours neighbours = neighbours_along_edges(columns.laid.brick);
     const std::vector<Vec3> outward = smoothed_normals(columns.laid, neighbours);
     const std::vector<double> radii = smooth_medial_radii(columns, outward, neighbours);
-    LayeredMesh best;
-    WorstCorner best_worst;
+    Soundest soundest;
     for (const double share : stone.shares) {
         std::vector<Vec3> ends(outward.size());
         for (std::size_t v = 0; v < ends.size(); ++v)
             ends[v] = columns.laid.spots[v].point -
                       std::max(share * radii[v], kShallowest * columns.skin_thickness) * outward[v];
-        LayeredMesh mesh = layered(columns, outward, ends);
-        const WorstCorner worst = worst_corner(mesh);
-        if (!best.nodes.empty() && worst.scaled_jacobian <= best_worst.scaled_jacobian) continue;
-        best = std::move(mesh);
-        best_worst = worst;
-        if (worst.scaled_jacobian > kSound) break;
+        if (soundest.take(layered(columns, outward, ends))) break;
     }
-    if (!(best_worst.scaled_jacobian > 0))
-        refuse_fold(best_worst, "smooth the surface around it, or make fruit.skin_thickness smaller");
-    return best;
+    if (!(soundest.worst.scaled_jacobian > 0))
+        refuse_fold(soundest.worst, "smooth the surface around it, or make fruit.skin_thickness smaller");
+    return std::move(soundest.mesh);
 }
 
 LayeredMesh layers_to_stone(const SurfaceColumns& columns, const CurvedSurface& stone) {
     const Neighbours neighbours = neighbours_along_edges(columns.laid.brick);
     const std::vector<Vec3> outward = smoothed_normals(columns.laid, neighbours);
-    const LaidBrick on_stone = brick_on_stone(columns.surface, columns.laid, stone);
-    LayeredMesh mesh = layered(columns, outward, on_stone.positions());
-    if (const WorstCorner worst = worst_corner(mesh); !(worst.scaled_jacobian > 0))
-        refuse_fold(worst, "make the stone smaller or smoother there, or set fruit.stone = \"made\"");
-    return mesh;
+    Soundest soundest;
+    // The light ones suit stones of the fruit's own shape, the last one others.
+    for (const StoneRelaxation& relaxation : {StoneRelaxation{0, 5}, {10, 5}, {0, 0}, {50, 15}}) {
+        const LaidBrick on_stone = brick_on_stone(columns.surface, columns.laid, stone, relaxation);
+        if (soundest.take(layered(columns, outward, on_stone.positions()))) break;
+    }
+    if (!(soundest.worst.scaled_jacobian > 0))
+        refuse_fold(soundest.worst,
+                    "make the stone smaller or smoother there, or set fruit.stone = \"made\"");
+    return std::move(soundest.mesh);
 }
 
 }  // namespace windfall::geometry
