@@ -65,13 +65,15 @@ MeshPlan plan_layers(const DryingParameters& parameters, double flesh_thickness)
     return plan;
 }
 
-/// Mean thickness of the flesh under an artist's skin, by the balls that fit into it.
+/// Mean thickness of the flesh under an artist's skin (r_1): to a core by the ball of the same volume, to a
+/// stone by the balls that fit in.
 double mean_flesh_thickness(const DryingParameters& parameters, const ArtistFruit& fruit) {
+    constexpr double kToCore = 0.75;
     constexpr double kLeast = 0.8;  // skins
     const double skin = parameters.fruit.skin_thickness;
+    if (parameters.fruit.stone == StoneKind::None) return kToCore;
     const Thickness thickness = thickness_of(fruit.mesh(), skin * fruit.r1());
-    const double share = parameters.fruit.stone == StoneKind::None ? geometry::kSmallestCore.shares.front()
-                                                                   : geometry::kAutomaticStone.shares.front();
+    const double share = geometry::kAutomaticStone.shares.front();
     return std::max(share * thickness.mean / fruit.r1() - skin, kLeast * skin);
 }
 
@@ -142,12 +144,10 @@ geometry::LayeredMesh make_mesh(const DryingParameters& parameters, const Artist
         geometry::graded_layers(plan.layers - plan.skin_layers, plan.skin_layers, plan.growth)};
     for (const geometry::SurfaceSpot& spot : laid.spots)
         columns.directions.push_back(fruit.map().direction(spot.place));
-    geometry::LayeredMesh mesh =
-        fruit.stone() != nullptr
-            ? geometry::layers_to_stone(columns, *fruit.stone())
-            : geometry::layers_to_made_stone(columns, parameters.fruit.stone == StoneKind::None
-                                                          ? geometry::kSmallestCore
-                                                          : geometry::kAutomaticStone);
+    geometry::LayeredMesh mesh = fruit.stone() != nullptr ? geometry::layers_to_stone(columns, *fruit.stone())
+                                 : parameters.fruit.stone == StoneKind::None
+                                     ? geometry::layers_to_core(columns, fruit.map())
+                                     : geometry::layers_to_made_stone(columns, geometry::kAutomaticStone);
     for (Vec3& node : mesh.nodes) node /= fruit.r1();
     for (Vec3& node : mesh.base) node /= fruit.r1();
     mesh.slow_functions = slow_functions_of(mesh);

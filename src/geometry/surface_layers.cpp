@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/medial_radius.h"
+#include "geometry/sphere_map_interior.h"
 #include "geometry/stone_lines.h"
 #include "geometry/surface_check_finders.h"
 
@@ -161,6 +162,23 @@ LayeredMesh layers_to_made_stone(const SurfaceColumns& columns, const MadeStone&
     if (!(soundest.worst.scaled_jacobian > 0))
         refuse_fold(soundest.worst, "smooth the surface around it, or make fruit.skin_thickness smaller");
     return std::move(soundest.mesh);
+}
+
+LayeredMesh layers_to_core(const SurfaceColumns& columns, const SphereMap& map) {
+    constexpr double kCore = 0.25;  // of the way out
+    const std::vector<Vec3> outward =
+        smoothed_normals(columns.laid, neighbours_along_edges(columns.laid.brick));
+    try {
+        const SphereInterior interior(map);
+        std::vector<Vec3> core;
+        core.reserve(outward.size());
+        for (const Vec3& direction : columns.directions) core.push_back(interior.point(direction, kCore));
+        Soundest soundest;
+        if (soundest.take(layered(columns, outward, core))) return std::move(soundest.mesh);
+    } catch (const InputError&) {
+        // No lines to a centre: the medial radius needs none.
+    }
+    return layers_to_made_stone(columns, kSmallCore);
 }
 
 LayeredMesh layers_to_stone(const SurfaceColumns& columns, const CurvedSurface& stone) {

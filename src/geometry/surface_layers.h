@@ -23,13 +23,18 @@ struct MadeStone {
     std::vector<double> shares;
 };
 inline const MadeStone kAutomaticStone{{0.6, 0.5, 0.4, 0.3}};
-/// As small as the layers allow: what stands in for no stone, since something must hold the body.
-inline const MadeStone kSmallestCore{{0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3}};
+inline const MadeStone kSmallCore{{0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3}};
 
 /// A stone of the body's own shape. The medial radius is taken at every fourth line of the lattice, made to
 /// vary by at most 0.3 of the way and smoothed; lines run along normals smoothed three times. Throws
 /// InputError with the place where a hexahedron folds over.
 LayeredMesh layers_to_made_stone(const SurfaceColumns& columns, const MadeStone& stone);
+
+/// To a core as small as the layers allow, which stands in for no stone, since something must hold the body:
+/// a quarter of the way from the centre along the lines of `SphereInterior`; where these fold over or lie too
+/// oblique to the skin, as `layers_to_made_stone` with up to 0.9 of the medial radius. Throws InputError as
+/// that does.
+LayeredMesh layers_to_core(const SurfaceColumns& columns, const SphereMap& map);
 
 /// To a stone that is given. Ends of the lines of steepest descent of (distance to the skin)-like harmonic
 /// potential, from a coarse brick, are relaxed on the stone and refined with it; then straight lines. Throws
