@@ -12,8 +12,10 @@ constexpr int kVersion = 3;
 // Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements,
 // the plastic set.
 nlohmann::json to_json(const StepRecord& r) {
-    return {r.parameter,         r.shrinkage,    r.depth_rms,         r.elastic_energy, r.viscous_work,
-            r.smallest_volume_ratio, r.newton_steps, r.linear_iterations, r.failures,       r.contacts};
+    return {r.parameter,      r.shrinkage,         r.depth_rms,
+            r.elastic_energy, r.viscous_work,      r.smallest_volume_ratio,
+            r.newton_steps,   r.linear_iterations, r.failures,
+            r.contacts};
 }
 
 StepRecord step_record_from(const nlohmann::json& r) {

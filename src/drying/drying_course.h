@@ -20,7 +20,7 @@ struct CourseState {
 struct CourseIncrement {
     CourseState to;
     double change = 0;           ///< largest change of an element's shrinkage, >= 0
-    bool turns = false;  ///< the way goes back from its end
+    bool turns = false;          ///< the way goes back from its end
     bool cut_at_target = false;  ///< ended by the target, before an element had changed as much as it may
     DryingField field;           ///< Fd at the end; valid as long as the course
 };
@@ -47,8 +47,8 @@ class DryingCourse {
 /// Shrinkage after a way up to `most` and down again.
 inline double shrinkage_on_way(double way, double most) { return way <= most ? way : 2 * most - way; }
 
-/// The paper's: one shrinkage for all flesh. The parameter is the way that it has gone, up to `most` and, as the
-/// fruit takes up water, down again.
+/// The paper's: one shrinkage for all flesh. The parameter is the way that it has gone, up to `most` and, as
+/// the fruit takes up water, down again.
 class GivenShrinkage : public DryingCourse {
   public:
     GivenShrinkage(RecipeDrying drying, double most) : m_drying(std::move(drying)), m_most(most) {}

@@ -10,7 +10,7 @@ RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkagePar
     const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
     for (const auto& quad : mesh.brick.quads) {
         Eigen::Vector3d radial = Eigen::Vector3d::Zero();
-        for (const std::int32_t vertex : quad) radial += mesh.directions[vertex];
+        for (const std::int32_t vertex : quad) radial += mesh.outward[vertex];
         radial.normalize();
         // At the poles all directions across the axis are alike.
         Eigen::Vector3d latitudinal = axis.cross(radial);

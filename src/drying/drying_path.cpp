@@ -58,7 +58,7 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     m_newton = std::make_unique<NewtonSolver>(*m_elasticity, m_contact.get());
     m_skin_rest = m_mesh.level_positions(m_mesh.layers);
     m_skin_areas = geometry::vertex_areas(m_skin_rest, m_mesh.faces());
-    m_slow = std::make_unique<geometry::SlowField>(m_mesh.directions, m_skin_areas);
+    m_slow = std::make_unique<geometry::SlowField>(m_mesh.directions, m_skin_areas, m_mesh.slow_functions);
     m_state.next_step = parameters.solver.max_step;
     m_state.displacements.emplace_back(m_elasticity->size());
 

@@ -4,7 +4,9 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <memory>
 
+#include "drying/artist_skin.h"
 #include "drying/checkpoint.h"
 #include "drying/frame_maker.h"
 #include "drying/imperfection.h"
@@ -44,13 +46,16 @@ class TimeLeft {
 
 class Run {
   public:
-    Run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-        std::span<const std::byte> checkpoint, const SkinPaint& paint)
+    Run(const DryingParameters& parameters, const FruitFiles& files, take::FrameSink& sink,
+        const RunContext& context, std::span<const std::byte> checkpoint)
         : m_parameters(parameters),
+          m_fruit(files.fruit.get()),
           m_sink(sink),
           m_context(context),
           m_frames(frame_parameters(parameters)),
-          m_path(fresh_path(paint)) {
+          m_path(fresh_path(files.paint)) {
+        if (m_fruit != nullptr && parameters.fruit.uvs == TakeSkin::Own)
+            m_artist_skin = std::make_unique<ArtistSkin>(*m_fruit, m_path.mesh());
         if (!checkpoint.empty()) {
             Checkpoint saved =
                 checkpoint_from(checkpoint, m_path.elasticity().size(), m_path.state().course.values.size());
@@ -61,11 +66,14 @@ class Run {
     }
 
     void go() {
-        if (m_frames_done == 0) m_sink.add_mesh(skin_mesh(m_path.mesh()));
+        if (m_frames_done == 0)
+            m_sink.add_mesh(m_artist_skin ? m_artist_skin->take_mesh() : skin_mesh(m_path.mesh()));
         try {
             while (m_frames_done < static_cast<int>(m_frames.size())) {
                 m_path.advance(m_frames[m_frames_done], m_context, [this] { after_step(); });
-                m_sink.add_frame(make_frame(m_path, m_parameters, m_frames_done));
+                take::Frame frame = make_frame(m_path, m_parameters, m_frames_done);
+                if (m_artist_skin) m_artist_skin->carry(frame);
+                m_sink.add_frame(frame);
                 ++m_frames_done;
                 save();
             }
@@ -82,11 +90,14 @@ class Run {
     DryingPath fresh_path(const SkinPaint& paint) {
         m_context.progress({"meshing", 0, m_frames.back(), -1, ""});
         check(m_parameters);
-        const auto shape = make_shape(m_parameters.fruit);
-        geometry::LayeredMesh mesh = make_mesh(m_parameters, *shape);
+        geometry::LayeredMesh mesh = m_fruit != nullptr
+                                         ? make_mesh(m_parameters, *m_fruit)
+                                         : make_mesh(m_parameters, *make_shape(m_parameters.fruit));
         add_imperfection(mesh, m_parameters, m_context);
         if (!m_parameters.moisture.on()) return {std::move(mesh), m_parameters};
-        auto course = std::make_unique<MoistureCourse>(mesh, m_parameters, paint);
+        DryingParameters real = m_parameters;
+        if (m_fruit != nullptr) real.fruit.size_m = real.fruit.unit_m * m_fruit->r1();
+        auto course = std::make_unique<MoistureCourse>(mesh, real, paint);
         return {std::move(mesh), m_parameters, std::move(course)};
     }
 
@@ -97,8 +108,7 @@ class Run {
     void after_step() {
         const StepRecord& step = m_path.state().history.back();
         const double total = m_frames.back();
-        const bool rewetting =
-            !m_parameters.moisture.on() && step.parameter > m_parameters.drying.shrinkage;
+        const bool rewetting = !m_parameters.moisture.on() && step.parameter > m_parameters.drying.shrinkage;
         m_context.progress({rewetting ? "rewetting" : "drying", step.parameter, total,
                             m_time_left.estimate(step.parameter, total, seconds()),
                             fmt::format("shrinkage {:.3f}, depth {:.2f} t_e", step.shrinkage,
@@ -163,11 +173,13 @@ class Run {
     }
 
     DryingParameters m_parameters;
+    const ArtistFruit* m_fruit;
     take::FrameSink& m_sink;
     const RunContext& m_context;
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
     std::vector<double> m_frames;
     DryingPath m_path;
+    std::unique_ptr<ArtistSkin> m_artist_skin;  ///< null where the take has the solver's skin
     int m_frames_done = 0;
     double m_elapsed_before_s = 0;
     double m_last_checkpoint_s = 0;
@@ -177,8 +189,13 @@ class Run {
 }  // namespace
 
 void run(const DryingParameters& parameters, take::FrameSink& sink, const RunContext& context,
-         std::span<const std::byte> checkpoint, const SkinPaint& paint) {
-    Run(parameters, sink, context, checkpoint, paint).go();
+         std::span<const std::byte> checkpoint) {
+    Run(parameters, {}, sink, context, checkpoint).go();
+}
+
+void run(const DryingParameters& parameters, const FruitFiles& files, take::FrameSink& sink,
+         const RunContext& context, std::span<const std::byte> checkpoint) {
+    Run(parameters, files, sink, context, checkpoint).go();
 }
 
 }  // namespace windfall::drying

@@ -35,7 +35,7 @@ void add_noise(LayeredMesh& mesh, const DryingParameters& parameters) {
         for (int k = 0; k < mesh.layers; ++k) {
             Vec3& node = mesh.nodes[c * mesh.layers + k];
             const double height = std::min(1.0, (node - mesh.base[c]).norm() / flesh);
-            node += displacement * height * height * mesh.directions[c];
+            node += displacement * height * height * mesh.outward[c];
         }
     }
 }

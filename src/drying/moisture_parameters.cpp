@@ -78,6 +78,8 @@ void check_moisture(const DryingParameters& parameters) {
         return;
     }
     water::climate_of(parameters.climate);
+    if (parameters.drying.rewet > 0)
+        throw InputError("drying.rewet is for a given shrinkage: take it or moisture.hours out");
     if (!parameters.output.shrinkages.empty())
         throw InputError(
             "output.shrinkages cannot be told beforehand where moisture.hours is set: give output.hours");

@@ -40,6 +40,25 @@ void add_fruit(Table& t) {
           "thickness t_e of the skin (exocarp); wrinkles grow with it", {.maximum = 0.5, .above = 0});
     t.add("fruit.size_m", "m", [](auto& p) -> auto& { return p.fruit.size_m; },
           "real length of r_1; scales what is exported, not the result", {.maximum = 100, .above = 0});
+    t.add(
+        "fruit.mesh", "file", [](auto& p) -> auto& { return p.fruit.mesh; },
+        "file of a closed mesh (.obj, .ply, .gltf, .glb) that is the fresh fruit, skin included, in place of "
+        "r2 .. r8; r_1 is then the radius of the ball of its volume");
+    t.add("fruit.unit_m", "m", [](auto& p) -> auto& { return p.fruit.unit_m; },
+          "real length of the unit of fruit.mesh, in place of size_m", {.maximum = 1000, .above = 0});
+    t.add_choice(
+        "fruit.stone", [](auto& p) -> auto& { return p.fruit.stone; }, {"made", "none", "ellipsoid", "mesh"},
+        "of fruit.mesh: made: of its own shape, 0.6 of the way in; none: as small a core as the layers "
+        "allow; "
+        "ellipsoid: stone_r1, stone_r2 about its middle; mesh: stone_mesh");
+    t.add(
+        "fruit.stone_mesh", "file", [](auto& p) -> auto& { return p.fruit.stone_mesh; },
+        "file of a closed mesh inside fruit.mesh, in its place, for fruit.stone = \"mesh\"");
+    t.add_choice(
+        "fruit.uvs", [](auto& p) -> auto& { return p.fruit.uvs; }, {"own", "atlas"},
+        "of fruit.mesh: own: the take has its vertices, faces and texture coordinates; atlas: the solver's "
+        "skin, "
+        "fine enough for every wrinkle, with texture coordinates of its own");
 }
 
 void add_physics(Table& t) {

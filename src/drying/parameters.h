@@ -2,6 +2,7 @@
 // Every number and choice of a drying run. The defaults here are the only ones; the table built from them
 // (drying_parameters) is what recipes are checked against and what --help, the schema and the docs print.
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/parameter.h"
@@ -10,14 +11,25 @@
 
 namespace windfall::drying {
 
+/// What a fruit that is an artist's mesh has at its core.
+enum class StoneKind { Made, None, Ellipsoid, Mesh };
+
+/// Whose vertices and texture coordinates the take has.
+enum class TakeSkin { Own, Atlas };
+
 /// The ten numbers of Liu et al. 2015, eq. (8), (9), in units of r_1 (the south pole's radius), and the real
-/// size.
+/// size; or an artist's mesh in place of r_2 .. r_8, whose r_1 is the radius of the ball of its volume.
 struct FruitParameters {
     double r2 = 1, r3 = 1, r4 = 1, r5 = 1, r6 = 1, r7 = 1;
     double r8 = 1;
     double stone_r1 = 0.4, stone_r2 = 0.4;
     double skin_thickness = 0.04;
     double size_m = 0.015;
+    std::string mesh;  ///< file; empty: the ten numbers
+    double unit_m = 1;
+    StoneKind stone = StoneKind::Made;
+    std::string stone_mesh;
+    TakeSkin uvs = TakeSkin::Own;
 };
 
 struct MaterialParameters {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "drying/artist_skin.h"
 #include "drying/drying_process.h"
 #include "drying/specimen.h"
 
@@ -45,7 +46,15 @@ void check(const DryingParameters& p) {
                             "drying.shrinkage (now {}) or take it out",
                             shrinkage, p.drying.shrinkage));
     check_moisture(p);
-    make_shape(p.fruit);
+    if (p.fruit.mesh.empty()) {
+        make_shape(p.fruit);
+        return;
+    }
+    if (p.fruit.stone == StoneKind::Mesh && p.fruit.stone_mesh.empty())
+        throw InputError("fruit.stone = \"mesh\" needs the file of the stone in fruit.stone_mesh");
+    if (!p.moisture.map.empty())
+        throw InputError(
+            "moisture.map lies over the texture of a fruit of ten numbers: take it or fruit.mesh out");
 }
 
 namespace {
@@ -62,9 +71,9 @@ std::vector<double> frame_stops(std::vector<double> listed, std::int64_t count, 
     listed.push_back(0);
     listed.push_back(end);
     std::sort(listed.begin(), listed.end());
-    listed.erase(std::unique(listed.begin(), listed.end(),
-                             [](double a, double b) { return b - a < kSameStop; }),
-                 listed.end());
+    listed.erase(
+        std::unique(listed.begin(), listed.end(), [](double a, double b) { return b - a < kSameStop; }),
+        listed.end());
     return listed;
 }
 
@@ -95,27 +104,22 @@ std::vector<double> frame_parameters(const DryingParameters& p) {
     return p.moisture.on() ? frame_stops(p.output.hours, p.output.frames, p.moisture.hours) : way_stops(p);
 }
 
-Plan plan(const DryingParameters& parameters) {
+namespace {
+
+/// `edge`: mean edge on the surface of `columns` columns (r_1); `wanted_n`: cells for the edge that is
+/// wanted.
+Plan plan_of(const DryingParameters& parameters, const MeshPlan& mesh, std::int64_t columns, double edge,
+             int wanted_n) {
     constexpr double kFewestPerWave = 8;
     constexpr double kCoarsestEdge = 0.9;  // edge over t_e: wrinkles are then 4 % too large
-    check(parameters);
-    const auto shape = make_shape(parameters.fruit);
-    const MeshPlan mesh = plan_mesh(parameters, *shape);
-    const geometry::BrickSurface brick = geometry::make_brick_surface(mesh.cells);
-    std::vector<geometry::Vec3> points = geometry::brick_directions(brick, shape->half_extents());
-    for (auto& point : points) point *= shape->flesh_radius(point);
-    const double edge = geometry::edge_statistics(points, brick.quads).mean;
-
     Plan result;
     result.n = mesh.cells[0];
     result.n_axial = mesh.cells[1];
     result.layers = mesh.layers;
-    result.unknowns = static_cast<std::int64_t>(points.size()) * 3 * mesh.layers;
+    result.unknowns = columns * 3 * mesh.layers;
     result.expected_wave_length = expected_wave_length(parameters);
     result.elements_per_wave = result.expected_wave_length / edge;
     const double thickness = parameters.fruit.skin_thickness;
-    const double wanted_edge = std::min(0.75 * thickness, result.expected_wave_length / 10);
-    const int wanted_n = geometry::brick_for_edge(*shape, wanted_edge, parameters.mesh.elongation)[0];
     if (result.elements_per_wave < kFewestPerWave)
         result.warnings.push_back(fmt::format(
             "only {:.1f} elements to a wrinkle of the expected wave length {:.3g} r_1: set mesh.n = {}",
@@ -131,6 +135,46 @@ Plan plan(const DryingParameters& parameters) {
         result.warnings.emplace_back(
             "the expected wrinkles are as large as the fruit: make fruit.skin_thickness or "
             "material.gamma smaller");
+    return result;
+}
+
+/// The edge that warnings recommend, whatever the recipe asks for.
+double recommended_edge(DryingParameters parameters) {
+    parameters.mesh.edge_over_te = MeshParameters{}.edge_over_te;
+    return wanted_edge(parameters);
+}
+
+}  // namespace
+
+Plan plan(const DryingParameters& parameters) {
+    check(parameters);
+    const auto shape = make_shape(parameters.fruit);
+    const MeshPlan mesh = plan_mesh(parameters, *shape);
+    const geometry::BrickSurface brick = geometry::make_brick_surface(mesh.cells);
+    std::vector<geometry::Vec3> points = geometry::brick_directions(brick, shape->half_extents());
+    for (auto& point : points) point *= shape->flesh_radius(point);
+    const double edge = geometry::edge_statistics(points, brick.quads).mean;
+    const int wanted_n =
+        geometry::brick_for_edge(*shape, recommended_edge(parameters), parameters.mesh.elongation)[0];
+    return plan_of(parameters, mesh, static_cast<std::int64_t>(points.size()), edge, wanted_n);
+}
+
+Plan plan(const DryingParameters& parameters, const ArtistFruit& fruit) {
+    check(parameters);
+    const MeshPlan mesh = plan_mesh(parameters, fruit);
+    const auto [n, m_n, same] = mesh.cells;
+    const std::int64_t quads =
+        2 * (std::int64_t{n} * m_n + std::int64_t{m_n} * same + std::int64_t{same} * n);
+    const double area = fruit.surface().area() / (fruit.r1() * fruit.r1());
+    const int wanted_n = geometry::cells_for(area, recommended_edge(parameters), fruit.elongation());
+    // A closed surface of quadrilaterals has two vertices more than faces.
+    Plan result =
+        plan_of(parameters, mesh, quads + 2, std::sqrt(area / static_cast<double>(quads)), wanted_n);
+    const auto add = [&](const std::vector<std::string>& warnings) {
+        result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+    };
+    add(check_thickness(fruit.mesh(), parameters.fruit));
+    if (parameters.fruit.uvs == TakeSkin::Own) add(check_resolution(fruit, result.expected_wave_length));
     return result;
 }
 

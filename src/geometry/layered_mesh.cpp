@@ -51,7 +51,11 @@ std::vector<Vec3> brick_directions(const BrickSurface& brick, const Vec3& half_e
     return directions;
 }
 
-void check_corners(const LayeredMesh& mesh, const std::string& remedy) {
+namespace {
+
+/// Calls visit(corner, edge, edge, edge) for every corner of every hexahedron, the edges right-handed.
+template <class Visit>
+void for_each_corner(const LayeredMesh& mesh, const Visit& visit) {
     for (const Quad& quad : mesh.brick.quads) {
         for (int k = 0; k < mesh.layers; ++k) {
             for (int c = 0; c < 4; ++c) {
@@ -59,18 +63,32 @@ void check_corners(const LayeredMesh& mesh, const std::string& remedy) {
                 const int previous = (c + 3) % 4;
                 for (int level = k; level <= k + 1; ++level) {
                     const Vec3& corner = mesh.node(quad[c], level);
-                    const Vec3 along = mesh.node(quad[c], k + 1) - mesh.node(quad[c], k);
-                    const double jacobian = (mesh.node(quad[next], level) - corner)
-                                                .cross(mesh.node(quad[previous], level) - corner)
-                                                .dot(along);
-                    if (jacobian <= 0)
-                        throw InputError(
-                            fmt::format("the mesh folds over near ({:.3g}, {:.3g}, {:.3g}) r_1: {}",
-                                        corner.x(), corner.y(), corner.z(), remedy));
+                    visit(corner, Vec3(mesh.node(quad[next], level) - corner),
+                          Vec3(mesh.node(quad[previous], level) - corner),
+                          Vec3(mesh.node(quad[c], k + 1) - mesh.node(quad[c], k)));
                 }
             }
         }
     }
+}
+
+}  // namespace
+
+WorstCorner worst_corner(const LayeredMesh& mesh) {
+    WorstCorner worst;
+    for_each_corner(mesh, [&](const Vec3& corner, const Vec3& a, const Vec3& b, const Vec3& along) {
+        const double scaled = a.cross(b).dot(along) / std::max(a.norm() * b.norm() * along.norm(), 1e-300);
+        if (scaled < worst.scaled_jacobian) worst = {scaled, corner};
+    });
+    return worst;
+}
+
+void check_corners(const LayeredMesh& mesh, const std::string& remedy) {
+    for_each_corner(mesh, [&](const Vec3& corner, const Vec3& a, const Vec3& b, const Vec3& along) {
+        if (a.cross(b).dot(along) <= 0)
+            throw InputError(fmt::format("the mesh folds over near ({:.3g}, {:.3g}, {:.3g}) r_1: {}",
+                                         corner.x(), corner.y(), corner.z(), remedy));
+    });
 }
 
 LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, const Lattice& cells,
@@ -80,6 +98,7 @@ LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, co
     mesh.layers = fractions.count();
     mesh.flesh_layers = static_cast<int>(fractions.flesh.size());
     mesh.directions = brick_directions(mesh.brick, shape.half_extents());
+    mesh.outward = mesh.directions;
     mesh.base.resize(mesh.columns());
     mesh.nodes.resize(mesh.columns() * mesh.layers);
     for (std::size_t c = 0; c < mesh.columns(); ++c) {
@@ -145,11 +164,6 @@ int cells_above(double n) {
     return std::max(8, step * static_cast<int>(std::ceil(n / step - 0.2)));
 }
 
-/// n such that a brick n x (m n) x n covers the surface with quads of mean edge `edge`.
-double cells_for_edge(double area, double edge, double elongation) {
-    return std::sqrt(area / (2 + 4 * elongation)) / edge;
-}
-
 double best_elongation(const FruitShape& shape) {
     double best = 1;
     double least = std::numeric_limits<double>::infinity();
@@ -166,10 +180,17 @@ double best_elongation(const FruitShape& shape) {
 
 }  // namespace
 
-Lattice brick_for_n(const FruitShape& shape, int n, double elongation) {
-    const double m = elongation > 0 ? elongation : best_elongation(shape);
+int cells_for(double area, double edge, double elongation) {
+    return cells_above(std::sqrt(area / (2 + 4 * elongation)) / edge);
+}
+
+Lattice brick_of(int n, double elongation) {
     const int step = n > 128 && n % 32 == 0 ? 32 : 8;
-    return {n, std::max(step, step * static_cast<int>(std::lround(m * n / step))), n};
+    return {n, std::max(step, step * static_cast<int>(std::lround(elongation * n / step))), n};
+}
+
+Lattice brick_for_n(const FruitShape& shape, int n, double elongation) {
+    return brick_of(n, elongation > 0 ? elongation : best_elongation(shape));
 }
 
 Lattice brick_for_edge(const FruitShape& shape, double edge, double elongation) {
@@ -178,7 +199,7 @@ Lattice brick_for_edge(const FruitShape& shape, double edge, double elongation) 
     const std::vector<Vec3> points = surface_points(shape, brick);
     double area = 0;
     for (const double a : vertex_areas(points, {brick.quads.begin(), brick.quads.end()})) area += a;
-    return brick_for_n(shape, cells_above(cells_for_edge(area, edge, m)), m);
+    return brick_of(cells_for(area, edge, m), m);
 }
 
 }  // namespace windfall::geometry

@@ -1,6 +1,7 @@
 #pragma once
 // A fruit as a solid: columns of hexahedra from the stone to the skin, one column under every vertex of a
-// brick's surface. Lines run along polar radii, so that star-shaped bodies cannot fold.
+// brick's surface. In a star-shaped body lines run along polar radii, so that they cannot fold; in any other
+// body along its inward normals (surface_layers.h).
 #include <string>
 #include <vector>
 
@@ -28,9 +29,13 @@ struct LayeredMesh {
     BrickSurface brick;
     int layers = 0;                ///< elements in a column
     int flesh_layers = 0;          ///< the innermost of them; the rest is skin
-    std::vector<Vec3> directions;  ///< per column: unit vector of its polar radius
+    std::vector<Vec3> directions;  ///< per column: its place on the sphere that the surface is laid on, unit
+    std::vector<Vec3> outward;     ///< per column: unit vector along it, out through the skin
     std::vector<Vec3> base;        ///< per column: its node on the stone
     std::vector<Vec3> nodes;       ///< [column * layers + k]: node on top of layer k
+    /// Functions on the columns, besides the harmonics of `directions`, that a slow displacement of the
+    /// surface is made of: one each column of the matrix. None where directions are polar radii.
+    Eigen::MatrixXd slow_functions;
 
     std::size_t columns() const { return directions.size(); }
     const Vec3& node(std::size_t column, int level) const {
@@ -45,6 +50,14 @@ struct LayeredMesh {
 /// the given half extents: equal angles on every side of the brick (tan map), stretched to the ellipsoid.
 std::vector<Vec3> brick_directions(const BrickSurface& brick, const Vec3& half_extents);
 
+/// The corner whose hexahedron is the most squeezed: triple product of its three edges over the product of
+/// their lengths, 1 in a brick, not positive where the hexahedron folds over.
+struct WorstCorner {
+    double scaled_jacobian = 1;
+    Vec3 place = Vec3::Zero();
+};
+WorstCorner worst_corner(const LayeredMesh& mesh);
+
 /// Throws InputError, with the place and the remedy, where a hexahedron does not have a positive triple
 /// product at each of its corners.
 void check_corners(const LayeredMesh& mesh, const std::string& remedy);
@@ -52,6 +65,12 @@ void check_corners(const LayeredMesh& mesh, const std::string& remedy);
 /// Throws InputError where `check_corners` does.
 LayeredMesh make_layered_mesh(const FruitShape& shape, double skin_thickness, const Lattice& cells,
                               const LayerFractions& fractions);
+
+/// n such that a brick n x (m n) x n, m = `elongation`, covers a surface of `area` with quadrilaterals of
+/// mean edge `edge`, as `brick_for_edge` rounds it. Throws InputError where it is too large.
+int cells_for(double area, double edge, double elongation);
+/// The cells n, m n, n with the second rounded as `brick_for_n` does.
+Lattice brick_of(int n, double elongation);
 
 /// Cells along x, y, z for which the mean edge on the surface is about `edge`: n, m n, n with both multiples
 /// of 8 and m = `elongation`; elongation 0 picks the m of {1, 1.25, 1.5, 2, 3} whose edges vary least.

@@ -5,7 +5,11 @@
 namespace windfall::geometry {
 
 SlowField::SlowField(const std::vector<Vec3>& directions, const std::vector<double>& weights)
-    : m_basis(directions.size(), kFunctions),
+    : SlowField(directions, weights, Eigen::MatrixXd()) {}
+
+SlowField::SlowField(const std::vector<Vec3>& directions, const std::vector<double>& weights,
+                     const Eigen::MatrixXd& more)
+    : m_basis(directions.size(), kFunctions + more.cols()),
       m_weights(
           Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()))) {
     for (Eigen::Index v = 0; v < m_basis.rows(); ++v) {
@@ -17,14 +21,24 @@ SlowField::SlowField(const std::vector<Vec3>& directions, const std::vector<doub
                     m_basis(v, f++) =
                         std::pow(d.x(), i) * std::pow(d.y(), j) * std::pow(d.z(), degree - i - j);
     }
-    m_normal_equations.compute(m_basis.transpose() * m_weights.asDiagonal() * m_basis);
+    Eigen::MatrixXd products =
+        m_basis.leftCols(kFunctions).transpose() * m_weights.asDiagonal() * m_basis.leftCols(kFunctions);
+    if (more.cols() > 0) {
+        m_basis.rightCols(more.cols()) = more;
+        products = m_basis.transpose() * m_weights.asDiagonal() * m_basis;
+        // Functions that depend on others then add nothing instead of dividing by nothing.
+        constexpr double kIndependent = 1e-10;
+        products.diagonal().array() += kIndependent * m_weights.sum();
+    }
+    m_normal_equations.compute(products);
 }
 
 std::vector<Vec3> SlowField::project(const std::vector<Vec3>& field) const {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> values(
         field.front().data(), static_cast<Eigen::Index>(field.size()), 3);
-    const Eigen::Matrix<double, kFunctions, 3> right = m_basis.transpose() * m_weights.asDiagonal() * values;
-    const Eigen::Matrix<double, kFunctions, 3> coefficients = m_normal_equations.solve(right);
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> right =
+        m_basis.transpose() * m_weights.asDiagonal() * values;
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> coefficients = m_normal_equations.solve(right);
     std::vector<Vec3> result(field.size());
     for (std::size_t v = 0; v < field.size(); ++v)
         result[v] = (m_basis.row(static_cast<Eigen::Index>(v)) * coefficients).transpose();

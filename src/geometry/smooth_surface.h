@@ -18,13 +18,17 @@ class SlowField {
 
     /// `directions`: unit vector of each vertex; `weights`: its area.
     SlowField(const std::vector<Vec3>& directions, const std::vector<double>& weights);
+    /// `more`: further functions, values [vertex, function] of about 1; they may depend on each other and on
+    /// the harmonics.
+    SlowField(const std::vector<Vec3>& directions, const std::vector<double>& weights,
+              const Eigen::MatrixXd& more);
 
     std::vector<Vec3> project(const std::vector<Vec3>& field) const;
 
   private:
-    Eigen::Matrix<double, Eigen::Dynamic, kFunctions> m_basis;
+    Eigen::MatrixXd m_basis;
     Eigen::VectorXd m_weights;
-    Eigen::LDLT<Eigen::Matrix<double, kFunctions, kFunctions>> m_normal_equations;
+    Eigen::LDLT<Eigen::MatrixXd> m_normal_equations;
 };
 
 /// Depth of each vertex below the smooth surface rest + slow part of (positions - rest), along that surface's

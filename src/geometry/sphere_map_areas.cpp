@@ -165,6 +165,11 @@ double sphere_orientation(const std::vector<Vec3>& directions, const Triangle& t
     return (directions[triangle[1]] - a).cross(directions[triangle[2]] - a).dot(a);
 }
 
+std::array<std::int32_t, 2> ends_of(const TriangleSurface& surface) {
+    const std::int32_t one = furthest_vertex(surface, furthest_vertex(surface, 0));
+    return {one, furthest_vertex(surface, one)};
+}
+
 void spread_areas(const TriangleSurface& surface, std::vector<Vec3>& directions) {
     std::vector<double> areas;
     areas.reserve(surface.triangles.size());
@@ -172,8 +177,7 @@ void spread_areas(const TriangleSurface& surface, std::vector<Vec3>& directions)
         const Vec3& a = surface.positions[t[0]];
         areas.push_back((surface.positions[t[1]] - a).cross(surface.positions[t[2]] - a).norm() / 2);
     }
-    const std::int32_t one = furthest_vertex(surface, furthest_vertex(surface, 0));
-    const std::int32_t other = furthest_vertex(surface, one);
+    const auto [one, other] = ends_of(surface);
     const auto take = [&](std::vector<Vec3> next) {
         const bool sound = is_one_to_one(surface, next);
         if (sound) directions = std::move(next);

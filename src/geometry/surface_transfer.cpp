@@ -163,4 +163,18 @@ std::vector<Eigen::Vector3f> SurfaceTransfer::moved(const std::vector<Eigen::Vec
     return result;
 }
 
+std::vector<float> SurfaceTransfer::carried(const std::vector<float>& values) const {
+    if (values.size() != m_skin_vertices)
+        throw InputError(fmt::format("{} values on a skin of {} vertices", values.size(), m_skin_vertices));
+    std::vector<float> result;
+    result.reserve(m_bonds.size());
+    for (const Bond& bond : m_bonds) {
+        const Quad& q = m_quads[bond.quad];
+        const float below = (1 - bond.u) * values[q[0]] + bond.u * values[q[1]];
+        const float above = (1 - bond.u) * values[q[3]] + bond.u * values[q[2]];
+        result.push_back((1 - bond.v) * below + bond.v * above);
+    }
+    return result;
+}
+
 }  // namespace windfall::geometry

@@ -24,6 +24,9 @@ class SurfaceTransfer {
     /// Positions of the artist's vertices for a moved skin.
     std::vector<Eigen::Vector3f> moved(const std::vector<Eigen::Vector3f>& skin) const;
 
+    /// Values on the skin's vertices, one each, at the places of the artist's: bilinear.
+    std::vector<float> carried(const std::vector<float>& values) const;
+
     /// Distance (m) of the vertex that lies furthest from the skin at rest.
     double largest_offset_m() const { return m_largest_offset_m; }
 

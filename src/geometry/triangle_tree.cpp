@@ -99,8 +99,9 @@ std::int32_t TriangleTree::build(std::int32_t begin, std::int32_t end, const std
     return index;
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& point, const Vec3& facing) const {
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& point, const Vec3& facing, double within) const {
     Nearest best;
+    best.distance_sq = within * within;
     best.place.triangle = -1;
     if (m_nodes.empty()) return best;
     const bool any_facing = facing.isZero(0);

@@ -25,8 +25,9 @@ class TriangleTree {
         double distance_sq = std::numeric_limits<double>::infinity();
     };
     /// The nearest point. With a `facing` other than zero only triangles whose normal has a positive
-    /// component along it are looked at.
-    Nearest nearest(const Vec3& point, const Vec3& facing = Vec3::Zero()) const;
+    /// component along it are looked at; with `within` only those nearer than it.
+    Nearest nearest(const Vec3& point, const Vec3& facing = Vec3::Zero(),
+                    double within = std::numeric_limits<double>::infinity()) const;
 
     /// Calls visit(i, j), i < j, for every pair of triangles whose boxes meet, in an order that depends on
     /// the triangles alone.

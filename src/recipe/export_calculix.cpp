@@ -5,6 +5,7 @@
 #include "drying/calculix_deck.h"
 #include "drying/imperfection.h"
 #include "drying/specimen.h"
+#include "recipe/fruit_file.h"
 #include "recipe/recipe.h"
 #include "take/take_folder.h"
 #include "take/take_reader.h"
@@ -29,8 +30,10 @@ fs::path export_calculix(const fs::path& take_folder, const fs::path& output, bo
         throw InputError(fmt::format(
             "{} is there already; add --force to replace it, or choose another name with -o", path.string()));
 
-    const auto shape = drying::make_shape(recipe.drying.fruit);
-    geometry::LayeredMesh mesh = drying::make_mesh(recipe.drying, *shape);
+    const auto fruit = read_fruit(recipe.drying);
+    geometry::LayeredMesh mesh =
+        fruit ? drying::make_mesh(recipe.drying, *fruit)
+              : drying::make_mesh(recipe.drying, *drying::make_shape(recipe.drying.fruit));
     drying::add_imperfection(mesh, recipe.drying, context);
     const std::string deck = drying::calculix_deck(mesh, recipe.drying);
     if (const fs::path folder = path.parent_path(); !folder.empty()) take::make_writable_folder(folder);

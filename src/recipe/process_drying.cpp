@@ -4,6 +4,7 @@
 
 #include "drying/drying_process.h"
 #include "drying/measure.h"
+#include "recipe/fruit_file.h"
 #include "recipe/painted_mask.h"
 #include "recipe/process_entry.h"
 
@@ -11,7 +12,8 @@ namespace windfall::recipe {
 namespace {
 
 RunPlan plan_drying(const Recipe& recipe) {
-    const drying::Plan plan = drying::plan(recipe.drying);
+    const auto fruit = read_fruit(recipe.drying);
+    const drying::Plan plan = fruit ? drying::plan(recipe.drying, *fruit) : drying::plan(recipe.drying);
     const double te = recipe.drying.fruit.skin_thickness;
     return {
         {{"mesh", fmt::format("{} x {} x {} brick, {} layers", plan.n, plan.n_axial, plan.n, plan.layers)},
@@ -54,14 +56,15 @@ Process drying_process() {
     };
     process.check = [](const Recipe& recipe) {
         drying::check(recipe.drying);
-        // A file that cannot be read is told of before a take is begun.
+        // Files that cannot be read are told of before a take is begun.
         paint_of(recipe);
+        read_meshes(recipe.drying);
     };
-    process.unit_length_m = [](const Recipe& recipe) { return recipe.drying.fruit.size_m; };
+    process.unit_length_m = [](const Recipe& recipe) { return real_r1_m(recipe.drying); };
     process.plan = plan_drying;
     process.run = [](const Recipe& recipe, take::FrameSink& sink, const RunContext& context,
                      std::span<const std::byte> checkpoint) {
-        drying::run(recipe.drying, sink, context, checkpoint, paint_of(recipe));
+        drying::run(recipe.drying, {read_fruit(recipe.drying), paint_of(recipe)}, sink, context, checkpoint);
     };
     process.measure = drying::measure;
     return process;
