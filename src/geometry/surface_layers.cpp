@@ -69,11 +69,11 @@ std::vector<double> smooth_medial_radii(const SurfaceColumns& columns, const std
     constexpr int kEvery = 4;  // lines of the lattice
     constexpr double kSlope = 0.3;
     constexpr int kSmoothings = 10;
-    constexpr std::size_t kVerticesPerTask = 16;
+    constexpr std::size_t kLayerVerticesPerTask = 16;
     const std::vector<Vec3> points = columns.laid.positions();
     const double largest = diagonal_of(points);
     std::vector<double> own(points.size(), largest);
-    parallel_blocks(points.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(points.size(), kLayerVerticesPerTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const Lattice& lattice = columns.laid.brick.lattice[v];
             if (std::any_of(lattice.begin(), lattice.end(), [](int i) { return i % kEvery != 0; })) continue;
