@@ -65,8 +65,8 @@ Mollifier edge_mollifier(const FourPoints& p, double fresh_squares) {
     return result;
 }
 
-double free_part_of_way(ContactKind kind, const FourPoints& points, const FourPoints& motion) {
-    constexpr double kKept = 0.1;      // of the distance at the start
+double free_part_of_way(ContactKind kind, const FourPoints& points, const FourPoints& motion, double gap) {
+    constexpr double kKept = 0.1;      // of the distance at the start or the gap
     constexpr double kAdvance = 0.9;   // of what a look at the distance allows
     constexpr int kMostAdvances = 64;  // each stops short of the touch, so that ending early is safe
     const Vec3 mean = (motion[0] + motion[1] + motion[2] + motion[3]) / 4;
@@ -82,13 +82,14 @@ double free_part_of_way(ContactKind kind, const FourPoints& points, const FourPo
                                ? speed[0] + std::max({speed[1], speed[2], speed[3]})
                                : std::max(speed[0], speed[1]) + std::max(speed[2], speed[3]);
     const double start = contact_gap(kind, p).distance;
+    const double kept = kKept * std::min(start, gap);
     double part = 0;
-    double advance = (1 - kKept) * start / fastest;
+    double advance = (start - kept) / fastest;
     if (!(advance < 1)) return 1;
     for (int i = 0; i < kMostAdvances; ++i) {
         for (std::size_t k = 0; k < 4; ++k) p[k] += advance * own[k];
         const double distance = contact_gap(kind, p).distance;
-        if (i > 0 && distance < kKept * start) break;
+        if (i > 0 && distance < kept) break;
         part += advance;
         if (part >= 1) return 1;
         advance = kAdvance * distance / fastest;

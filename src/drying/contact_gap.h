@@ -33,7 +33,7 @@ Mollifier edge_mollifier(const FourPoints& points, double fresh_squares);
 
 /// A lower bound of the part of the way `motion` after which the two parts would touch, by conservative
 /// advancement (Li et al. 2021, Codimensional Incremental Potential Contact, algorithm 1): over that part a
-/// tenth of the distance at the start remains. 1 where all of the way is free.
-double free_part_of_way(ContactKind kind, const FourPoints& points, const FourPoints& motion);
+/// tenth of the distance at the start remains, or of `gap` if that is less. 1 where all of the way is free.
+double free_part_of_way(ContactKind kind, const FourPoints& points, const FourPoints& motion, double gap);
 
 }  // namespace windfall::drying

@@ -123,9 +123,10 @@ double ContactSurface::smallest_height() const {
     return smallest;
 }
 
-std::vector<ContactPair> find_contact_pairs(const ContactSurface& surface, const std::vector<Vec3>& x,
+std::vector<ContactPair> find_contact_pairs(const ContactSurface& surface, const std::vector<Vec3>& positions,
                                             double reach, const std::vector<double>& allowances) {
     const double largest_allowance = *std::max_element(allowances.begin(), allowances.end());
+    const std::vector<Vec3>& x = positions;
     std::vector<Vec3> middles;
     double longest = 0;
     double sum = 0;
@@ -140,7 +141,8 @@ std::vector<ContactPair> find_contact_pairs(const ContactSurface& surface, const
 
     const PointGrid vertices(x, mean);
     collect_pairs(surface.triangles.size(), pairs, [&](std::size_t i, std::vector<ContactPair>& found) {
-        const auto& [a, b, c] = surface.triangles[i];
+        const std::int32_t a = surface.triangles[i][0], b = surface.triangles[i][1],
+                           c = surface.triangles[i][2];
         const double own = reach + std::max({allowances[a], allowances[b], allowances[c]});
         ContactBox box{x[a], x[a]};
         box.widen(x[b]);
@@ -160,7 +162,7 @@ std::vector<ContactPair> find_contact_pairs(const ContactSurface& surface, const
 
     const PointGrid grid(middles, mean);
     collect_pairs(surface.edges.size(), pairs, [&](std::size_t i, std::vector<ContactPair>& found) {
-        const auto [a, b] = surface.edges[i];
+        const std::int32_t a = surface.edges[i][0], b = surface.edges[i][1];
         const double own = reach + std::max(allowances[a], allowances[b]);
         ContactBox box{x[a], x[a]};
         box.widen(x[b]);

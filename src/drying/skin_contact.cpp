@@ -152,7 +152,7 @@ double SkinContact::free_part(const AlignedArray<double>& from, const AlignedArr
         double& own = smallest[begin / kPairBlock];
         for (std::size_t i = begin; i < end; ++i)
             own = std::min(own, free_part_of_way(m_pairs[i].kind, corners_of(m_pairs[i], x),
-                                                 corners_of(m_pairs[i], motion)));
+                                                 corners_of(m_pairs[i], motion), m_gap));
     });
     return smallest.empty() ? 1 : *std::min_element(smallest.begin(), smallest.end());
 }

@@ -60,7 +60,7 @@ class SkinContact {
     std::vector<geometry::Vec3> positions(const AlignedArray<double>& displacement) const;
     bool covers(const std::vector<geometry::Vec3>& positions) const;
     void find_pairs(const std::vector<geometry::Vec3>& from, const std::vector<geometry::Vec3>& to);
-    std::vector<Press> presses(const std::vector<geometry::Vec3>& positions) const;
+    std::vector<Press> presses(const std::vector<geometry::Vec3>& x) const;
     std::size_t place(std::int32_t vertex) const {
         return (static_cast<std::size_t>(vertex) * 3 + 1) * m_layers - 1;
     }

@@ -88,23 +88,23 @@ TEST(ContactGap, WayEndsBeforeTheTouch) {
     const auto moved = [](double z) {
         return FourPoints{Vec3(0, 0, z), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     };
-    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, above, moved(-0.5)), 1);
-    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, above, moved(10)), 1);
-    const double part = free_part_of_way(ContactKind::VertexTriangle, above, moved(-10));
+    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, above, moved(-0.5), 1), 1);
+    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, above, moved(10), 1), 1);
+    const double part = free_part_of_way(ContactKind::VertexTriangle, above, moved(-10), 1);
     EXPECT_GT(part, 0.08);
     EXPECT_LT(part, 0.1);
     // Past the triangle, not through it.
     FourPoints aside = above;
     aside[0] = Vec3(0.7, 0.7, 1);
-    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, aside, moved(-10)), 1);
+    EXPECT_EQ(free_part_of_way(ContactKind::VertexTriangle, aside, moved(-10), 1), 1);
     const FourPoints edges = {Vec3(-1, 0, 1), Vec3(1, 0, 1), Vec3(0, -1, 0), Vec3(0, 1, 0)};
     const FourPoints down = {Vec3(0, 0, -4), Vec3(0, 0, -4), Vec3::Zero(), Vec3::Zero()};
-    const double of_edges = free_part_of_way(ContactKind::EdgeEdge, edges, down);
+    const double of_edges = free_part_of_way(ContactKind::EdgeEdge, edges, down, 1);
     EXPECT_GT(of_edges, 0.2);
     EXPECT_LT(of_edges, 0.25);
     // Moving together is free, however far.
     const FourPoints together = {Vec3(9, 9, -9), Vec3(9, 9, -9), Vec3(9, 9, -9), Vec3(9, 9, -9)};
-    EXPECT_EQ(free_part_of_way(ContactKind::EdgeEdge, edges, together), 1);
+    EXPECT_EQ(free_part_of_way(ContactKind::EdgeEdge, edges, together, 1), 1);
 }
 
 /// A sphere whose poles along z are pressed flat against each other.
