@@ -30,6 +30,7 @@ TEST(DryingParameters, EveryEntryReachesItsOwnMember) {
         if (auto* number = std::get_if<double>(&value)) *number = 0.123;
         if (auto* integer = std::get_if<std::int64_t>(&value)) *integer += 1;
         if (auto* list = std::get_if<std::vector<double>>(&value)) *list = {0.1};
+        if (auto* text = std::get_if<std::string>(&value)) *text = "other";
         if (!entry.info.choices.empty()) value = entry.info.choices.back();
         entry.set(changed, value);
         int differences = 0;
