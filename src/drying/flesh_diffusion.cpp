@@ -62,7 +62,8 @@ struct FleshDiffusion::Columns {
           ratios(system.m_cells.size()),
           layers(system.m_cells.layers()) {
         const FleshCells& cells = system.m_cells;
-        const auto& [up, side] = system.m_conductances;
+        const auto& up = system.m_conductances.up;
+        const auto& side = system.m_conductances.side;
         const double d = system.m_diffusivity;
         parallel_blocks(cells.quads(), kColumnBlock, [&](std::size_t begin, std::size_t end) {
             for (std::size_t q = begin; q < end; ++q)
@@ -104,7 +105,8 @@ FleshDiffusion::FleshDiffusion(const FleshCells& cells, const FleshConductances&
 void FleshDiffusion::apply(const std::vector<double>& x, double tau, const std::vector<double>& leak,
                            std::vector<double>& y) const {
     const std::size_t layers = m_cells.layers();
-    const auto& [up, side] = m_conductances;
+    const auto& up = m_conductances.up;
+    const auto& side = m_conductances.side;
     parallel_blocks(m_cells.quads(), kColumnBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t q = begin; q < end; ++q) {
             const auto& neighbours = m_cells.neighbours(q);
