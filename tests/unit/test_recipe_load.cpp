@@ -275,7 +275,7 @@ std::vector<std::string> presets_of(const std::string& process) {
 
 TEST(Presets, AllLoad) {
     EXPECT_THAT(presets_of("drying"), testing::ElementsAre("jujube", "jujube-plump", "plum", "plum-round",
-                                                           "raisin", "sphere", "wolfberry"));
+                                                           "raisin", "raisin-sun", "sphere", "wolfberry"));
     EXPECT_THAT(presets_of("fracture"),
                 testing::ElementsAre("ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17",
                                      "fig18", "fig19", "fig2", "goldenrain", "green-branch", "log-end",
