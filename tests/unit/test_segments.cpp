@@ -39,7 +39,9 @@ TEST(Segments, WallsTakeTheirShareAndStandAtEvenLongitudes) {
         // A wall stands at longitude 0, where x is positive, and none half a segment further.
         const double segments_around = std::atan2(middle.z(), middle.x()) * 10 / (2 * M_PI);
         const double from_wall = std::abs(segments_around - std::round(segments_around));
-        if (from_wall > 0.3) EXPECT_NEAR(walls[q], 0, 1e-12);
+        if (from_wall > 0.3) {
+            EXPECT_NEAR(walls[q], 0, 1e-12);
+        }
         around += walls[q];
         ++at_equator;
     }
