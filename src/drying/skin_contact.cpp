@@ -18,7 +18,7 @@ constexpr double kShareOfHeight = 0.3;     // gap over the smallest height of a 
 constexpr double kAllowance = 1;  // of the gap: how far vertices move before pairs are looked for again
 constexpr double kMotionReserve = 1.25;  // over the motion that pairs are looked for
 constexpr double kSmallestScale = 0.9;   // of the skin since pairs were looked for
-/// Share of the contact's own blocks that the preconditioner sees: measured, see docs/drying.md.
+/// Share of the contact's own blocks that the preconditioner sees.
 constexpr float kPreconditioned = 0.25F;
 
 /// Derivatives of the energy over area, stiffness and share.
