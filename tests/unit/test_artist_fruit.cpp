@@ -55,15 +55,16 @@ TEST(ArtistFruit, LengthsAreOverTheRadiusOfTheBallOfEqualVolume) {
 }
 
 TEST(ArtistFruit, SkinsTooThickForANeckAreRefusedAndNearlySoToldOf) {
-    const auto pear = test::bent_rod(0.2, 0.01, 0.5, 32, 64);  // as thick as 0.01 to either side
+    // As thick as 0.01 to either side, at its ends (4 radius^2 / length) as in its middle.
+    const auto rod = test::bent_rod(0.04, 0.01, 0.1, 32, 64);
     FruitParameters fruit;
-    const double r1 = equivalent_radius(pear);
+    const double r1 = equivalent_radius(rod);
     fruit.skin_thickness = 0.004 / r1;
-    EXPECT_THAT(check_thickness(pear, fruit), testing::ElementsAre(testing::HasSubstr("skins thick")));
+    EXPECT_THAT(check_thickness(rod, fruit), testing::ElementsAre(testing::HasSubstr("skins thick")));
     fruit.skin_thickness = 0.0005 / r1;
-    EXPECT_THAT(check_thickness(pear, fruit), testing::IsEmpty());
+    EXPECT_THAT(check_thickness(rod, fruit), testing::IsEmpty());
     fruit.skin_thickness = 0.008 / r1;
-    const std::string text = message_of([&] { check_thickness(pear, fruit); });
+    const std::string text = message_of([&] { check_thickness(rod, fruit); });
     EXPECT_THAT(text, testing::HasSubstr("set fruit.skin_thickness = "));
     EXPECT_THAT(text, testing::HasSubstr(") of fruit.mesh"));
 }
@@ -95,9 +96,10 @@ TEST(ArtistSkin, VerticesComeBackExactlyAndBallsShrinkByTheClosedForm) {
     p.mesh.n = 16;
     p.material.bulk_ratio = 1000;
     p.solver.newton_tolerance = 1e-3;
-    const ArtistFruit fruit({mesh, {}}, p);
+    const FruitFiles files{std::make_unique<const ArtistFruit>(ArtistMeshes{mesh, {}}, p), {}};
+    const ArtistFruit& fruit = *files.fruit;
     FrameKeeper keeper;
-    run(p, fruit, keeper, {});
+    run(p, files, keeper, {});
     EXPECT_EQ(keeper.mesh.rest.faces, mesh.faces);
     EXPECT_EQ(keeper.mesh.rest.corner_uvs.size(), mesh.faces.size());
     ASSERT_EQ(keeper.frames.size(), 2U);
@@ -119,9 +121,9 @@ TEST(ArtistSkin, VerticesComeBackExactlyAndBallsShrinkByTheClosedForm) {
 TEST(ArtistSkin, RunsGoOnFromACheckpointToTheSameBits) {
     const auto mesh = test::potato_mesh(32, 24);
     const DryingParameters p = coarse(0.02);
-    const ArtistFruit fruit({mesh, {}}, p);
+    const FruitFiles files{std::make_unique<const ArtistFruit>(ArtistMeshes{mesh, {}}, p), {}};
     FrameKeeper whole, first, second;
-    run(p, fruit, whole, {});
+    run(p, files, whole, {});
     // Cancelled after the first step: the frame of the fresh fruit and a checkpoint are there.
     RunContext context;
     std::atomic<bool> stop = false;
@@ -129,9 +131,9 @@ TEST(ArtistSkin, RunsGoOnFromACheckpointToTheSameBits) {
     context.on_progress = [&](const Progress& progress) {
         if (progress.stage == "drying" && progress.done > 0) stop = true;
     };
-    EXPECT_THROW(run(p, fruit, first, context), Cancelled);
+    EXPECT_THROW(run(p, files, first, context), Cancelled);
     ASSERT_EQ(first.frames.size(), 1U);
-    run(p, fruit, second, {}, first.checkpoint);
+    run(p, files, second, {}, first.checkpoint);
     ASSERT_EQ(second.frames.size(), 1U);
     EXPECT_EQ(second.frames[0].meshes[0].positions, whole.frames[1].meshes[0].positions);
 }
@@ -139,9 +141,10 @@ TEST(ArtistSkin, RunsGoOnFromACheckpointToTheSameBits) {
 TEST(ArtistSkin, TheAtlasHasTheSolversSkin) {
     DryingParameters p = coarse(0.005);
     p.fruit.uvs = TakeSkin::Atlas;
-    const ArtistFruit fruit({test::potato_mesh(32, 24), {}}, p);
+    const FruitFiles files{
+        std::make_unique<const ArtistFruit>(ArtistMeshes{test::potato_mesh(32, 24), {}}, p), {}};
     FrameKeeper keeper;
-    run(p, fruit, keeper, {});
+    run(p, files, keeper, {});
     EXPECT_EQ(keeper.mesh.rest.positions.size(), 6U * 8 * 8 + 2);
 }
 
