@@ -185,7 +185,8 @@ TEST(DecayParameters, MistakesAreNamed) {
     EXPECT_THAT(complaint([](auto& p) { p.growth.fungi = "erwinia"; }), HasSubstr("soft rot"));
     EXPECT_THAT(complaint([](auto& p) { p.growth.fungi = "penicilium-digitatum"; }),
                 HasSubstr("penicillium-digitatum"));
-    EXPECT_THAT(complaint([](auto& p) { p.climate.name = water::ClimateName::Table; }), HasSubstr("climate.hours"));
+    EXPECT_THAT(complaint([](auto& p) { p.climate.name = water::ClimateName::Table; }),
+                HasSubstr("climate.hours"));
     EXPECT_THAT(complaint([](auto& p) { p.output.texels = 101; }), HasSubstr("even"));
     EXPECT_THAT(complaint([](auto& p) {
                     p.start.random = 0;
