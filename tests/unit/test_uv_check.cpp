@@ -111,8 +111,8 @@ TEST(UvRaster, ShowsTheRightPlaceInEveryTexel) {
         const SurfacePlace place = raster.place(texel);
         const auto uvs = uvs_of(mesh, surface.origin[place.triangle]);
         const Vec2 uv = place.weights[0] * uvs[0] + place.weights[1] * uvs[1] + place.weights[2] * uvs[2];
-        const double x = static_cast<double>(texel % kSize) + 0.5,
-                     y = static_cast<double>((texel - texel % kSize) / kSize) + 0.5;
+        const std::size_t row = texel / kSize;
+        const double x = static_cast<double>(texel % kSize) + 0.5, y = static_cast<double>(row) + 0.5;
         ASSERT_LT((uv - Vec2(x / kSize, 1 - y / kSize)).norm(), 1e-6);
     }
     EXPECT_EQ(covered, raster.chart_texels());
