@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/error.h"
@@ -64,16 +65,21 @@ LaidBrick brick_on_stone(const CurvedSurface& surface, const LaidBrick& laid, co
 }
 
 void require_inside(const CurvedSurface& surface, const CurvedSurface& stone, double distance) {
+    double highest = -std::numeric_limits<double>::infinity();  // over the skin
+    Vec3 place = Vec3::Zero();
     for (const Vec3& p : stone.triangles().positions) {
         const TriangleTree::Nearest nearest = surface.tree().nearest(p);
-        const Vec3 normal = surface.at(nearest.place).normal;
-        const bool outside = normal.dot(p - nearest.point) > 0;
-        if (!outside && nearest.distance_sq >= distance * distance) continue;
-        throw InputError(
-            fmt::format("the stone {} near {} of the mesh's file: make it smaller there, or set "
-                        "fruit.stone = \"made\"",
-                        outside ? "pierces the skin" : "comes too close to the skin", place_text(p)));
+        const bool outside = surface.at(nearest.place).normal.dot(p - nearest.point) > 0;
+        const double height = (outside ? 1 : -1) * std::sqrt(nearest.distance_sq);
+        if (height <= highest) continue;
+        highest = height;
+        place = p;
     }
+    if (highest <= -distance) return;
+    throw InputError(
+        fmt::format("the stone {} near {} of the mesh's file: make it smaller there, or set fruit.stone = "
+                    "\"made\"",
+                    highest > 0 ? "pierces the skin" : "comes too close to the skin", place_text(place)));
 }
 
 }  // namespace windfall::geometry
