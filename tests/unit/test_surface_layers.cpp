@@ -43,30 +43,21 @@ CurvedSurface base_as_stone(const LayeredMesh& mesh) {
     return CurvedSurface(welded_triangles(stone));
 }
 
-class Layers : public testing::TestWithParam<int> {};
-
-TEST_P(Layers, OfEveryFruitAreSoundToAnyStone) {
-    const auto [name, mesh] = test::fruit_meshes()[static_cast<std::size_t>(GetParam())];
-    const Fruit fruit(mesh, name == "banana" ? 6 : name == "bean" ? 2 : 1);
+TEST(SurfaceLayers, OfAPotatoAreSoundToAnyStone) {
+    const Fruit fruit(test::potato_mesh(48, 32), 1);
     const SurfaceColumns columns = fruit.columns();
-
     const LayeredMesh made = layers_to_made_stone(columns, kAutomaticStone);
-    EXPECT_GT(worst_corner(made).scaled_jacobian, 0.1) << name;
+    EXPECT_GT(worst_corner(made).scaled_jacobian, 0.3);
     // The outermost nodes lie on the given surface, the skin has its thickness.
     for (std::size_t c = 0; c < made.columns(); ++c) {
         EXPECT_LT((made.node(c, 8) - fruit.laid.spots[c].point).norm(), 1e-12);
         EXPECT_NEAR((made.node(c, 8) - made.node(c, 6)).norm(), fruit.skin, 1e-12);
     }
-
     const LayeredMesh none = layers_to_core(columns, fruit.map);
-    EXPECT_GT(worst_corner(none).scaled_jacobian, 0.1) << name;
-    EXPECT_LT(enclosed_volume(none.base, none.faces()), 0.03 * fruit.volume()) << name;
-
-    const LayeredMesh given = layers_to_stone(columns, base_as_stone(made));
-    EXPECT_GT(worst_corner(given).scaled_jacobian, 0.1) << name;
+    EXPECT_GT(worst_corner(none).scaled_jacobian, 0.3);
+    EXPECT_LT(enclosed_volume(none.base, none.faces()), 0.03 * fruit.volume());
+    EXPECT_GT(worst_corner(layers_to_stone(columns, base_as_stone(made))).scaled_jacobian, 0.3);
 }
-
-INSTANTIATE_TEST_SUITE_P(EveryFruit, Layers, testing::Range(0, 5));
 
 TEST(SurfaceLayers, AWorstCornerIsFound) {
     const Fruit fruit(test::sphere_mesh(32, 24), 1);
