@@ -3,6 +3,8 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <string>
+#include <variant>
 
 #include "commands.h"
 #include "core/error.h"
@@ -29,7 +31,19 @@ void print_file(const std::string& name) {
     const std::filesystem::path file = recipe::preset_file(name);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError("cannot read the preset " + file.string());
-    fmt::print("{}", std::string(std::istreambuf_iterator<char>(stream), {}));
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    // Files lie beside the preset, and a copy elsewhere must find them.
+    const recipe::Recipe loaded = recipe::load(name);
+    for (const Parameter<recipe::Recipe>& parameter : recipe::process_named(loaded.process).parameters) {
+        if (parameter.info.unit != "file") continue;
+        const auto path = std::get<std::string>(parameter.get(loaded));
+        if (path.empty()) continue;
+        const std::string quoted =
+            '"' + std::filesystem::path(path).lexically_relative(file.parent_path()).string() + '"';
+        if (const std::size_t at = text.find(quoted); at != std::string::npos)
+            text.replace(at, quoted.size(), '"' + path + '"');
+    }
+    fmt::print("{}", text);
 }
 
 }  // namespace

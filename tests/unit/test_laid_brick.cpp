@@ -20,7 +20,7 @@ SurfaceMesh cube(int cells) {
     SurfaceMesh mesh;
     const BrickSurface brick = make_brick_surface({cells, cells, cells});
     for (const Lattice& p : brick.lattice)
-        mesh.positions.push_back(2.0 / cells * Vec3(p[0], p[1], p[2]) - Vec3::Ones());
+        mesh.positions.emplace_back(2.0 / cells * Vec3(p[0], p[1], p[2]) - Vec3::Ones());
     mesh.faces.assign(brick.quads.begin(), brick.quads.end());
     return mesh;
 }
