@@ -119,7 +119,7 @@ BENCHMARK_DEFINE_F(Body, multigrid_set_up)(benchmark::State& state) {
     time(state, smoothers + coarse, [&] { benchmark::DoNotOptimize(m_multigrid->set_up()); });
 }
 
-BENCHMARK_DEFINE_F(Body, v_cycle)(benchmark::State& state) {
+BENCHMARK_DEFINE_F(Body, cycle)(benchmark::State& state) {
     time(state, sum_over_levels([](const LevelBytes& level) { return 2 * level.packed; }),
          [&] { m_multigrid->apply(m_x.data(), m_y.data()); });
 }
@@ -135,7 +135,7 @@ void on_one_and_two_threads(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK_REGISTER_F(Body, energy)->Apply(on_one_and_two_threads);
 BENCHMARK_REGISTER_F(Body, assemble)->Apply(on_one_and_two_threads);
 BENCHMARK_REGISTER_F(Body, multigrid_set_up)->Apply(on_one_and_two_threads);
-BENCHMARK_REGISTER_F(Body, v_cycle)->Apply(on_one_and_two_threads);
+BENCHMARK_REGISTER_F(Body, cycle)->Apply(on_one_and_two_threads);
 BENCHMARK_REGISTER_F(Body, product)->Apply(on_one_and_two_threads);
 
 }  // namespace

@@ -35,14 +35,20 @@ class ConjugateGradients {
     LinearResult solve(const AlignedArray<float>& b, AlignedArray<float>& x, double tolerance,
                        int max_iterations, double radius, const RunContext& context);
 
-    /// Mass-weighted inner product.
-    double mass_dot(const AlignedArray<float>& a, const AlignedArray<float>& b) const;
+    /// Mass-weighted root mean square.
+    double length(const AlignedArray<float>& x) const;
 
   private:
+    /// Mass-weighted inner products.
+    struct Lengths {
+        double xx = 0, xp = 0, pp = 0;
+    };
+    Lengths lengths(const float* x, const float* p) const;
+
     Multigrid& m_multigrid;
     const AlignedArray<float>& m_mass;
     AddedProduct m_added;
-    AlignedArray<float> m_residual, m_last_residual, m_preconditioned, m_direction, m_product;
+    AlignedArray<float> m_residual, m_preconditioned, m_direction, m_product;
 };
 
 }  // namespace windfall::drying

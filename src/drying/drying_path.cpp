@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drying/specimen.h"
+
 namespace windfall::drying {
 
 namespace {
@@ -92,8 +94,14 @@ double DryingPath::viscosity() const {
     const SolverParameters& solver = m_parameters.solver;
     const double wrinkled_at = onset();
     if (wrinkled_at < 0) return solver.viscosity;
+    // Shorter wrinkles are stiffer against a damping of the same size, by the square of their length; a
+    // smaller power was found to cost as little and to change less.
+    constexpr double kBaseWaveLength = 0.3754;  // of the base case
+    constexpr double kPower = 1.5;
+    const double shortness = std::max(1.0, kBaseWaveLength / expected_wave_length(m_parameters));
+    const double late = solver.late_viscosity * std::pow(shortness, kPower);
     const double progress = (m_state.course.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
-    return std::lerp(solver.viscosity, solver.late_viscosity, std::clamp(progress, 0.0, 1.0));
+    return std::lerp(solver.viscosity, late, std::clamp(progress, 0.0, 1.0));
 }
 
 AlignedArray<double> DryingPath::predict(double step) const {
@@ -115,6 +123,27 @@ AlignedArray<double> DryingPath::predict(double step) const {
     return result;
 }
 
+AlignedArray<double> DryingPath::drift(double step) const {
+    const auto& u = m_state.displacements;
+    AlignedArray<double> result = u[0];
+    if (m_state.past_steps.empty()) return result;
+    const double factor = step / m_state.past_steps[0];
+    const std::vector<std::int32_t>& vertex = m_multigrid->order().vertex_of_solver;
+    const auto layers = static_cast<std::size_t>(m_mesh.layers);
+    parallel_for_each(layers, [&](std::size_t k) {
+        std::vector<Vec3> change(m_mesh.columns());
+        const auto index = [&](std::size_t c, std::size_t i) { return (3 * c + i) * layers + k; };
+        for (std::size_t c = 0; c < change.size(); ++c)
+            for (std::size_t i = 0; i < 3; ++i)
+                change[vertex[c]][static_cast<int>(i)] = u[0][index(c, i)] - u[1][index(c, i)];
+        const std::vector<Vec3> slow = m_slow->project(change);
+        for (std::size_t c = 0; c < change.size(); ++c)
+            for (std::size_t i = 0; i < 3; ++i)
+                result[index(c, i)] += factor * slow[vertex[c]][static_cast<int>(i)];
+    });
+    return result;
+}
+
 bool DryingPath::attempt(double target, const RunContext& context) {
     // Of the course's state nothing is kept until the increment is accepted, so a shorter one starts afresh.
     CourseIncrement increment = m_course->increment(m_state.course, target, m_state.next_step, positions());
@@ -131,7 +160,8 @@ bool DryingPath::attempt(double target, const RunContext& context) {
         return true;
     }
     const AlignedArray<double>& start = m_state.displacements.front();
-    const Damping damping{&start, viscosity() * m_parameters.drying.shrinkage / step};
+    const AlignedArray<double> drifted = drift(step);
+    const Damping damping{&drifted, viscosity() * m_parameters.drying.shrinkage / step};
     m_elasticity->set_drying(with_set(walled(increment.field), m_state.set, m_mesh.layers));
     AlignedArray<double> displacement = predict(step);
     if (m_contact != nullptr) {

@@ -84,6 +84,10 @@ class DryingPath {
     DryingField stress_free() const { return with_set(drying_field(), m_state.set, m_mesh.layers); }
     double reference_force() const { return m_reference_force; }
 
+    /// The displacement now, carried on by the slow part of the last increment's motion for an increment of
+    /// `step`: the viscous force pulls to it, so that what the whole fruit does is not damped.
+    AlignedArray<double> drift(double step) const;
+
     /// Nodes now: [column * layers + k], in the brick's order.
     std::vector<geometry::Vec3> positions() const;
     /// Depth of the skin's vertices below the smooth surface, in the brick's order.

@@ -20,48 +20,18 @@ struct SolidSums {
     double smallest_elastic = 1e30, largest_elastic = -1e30;
     double dried_volume = 0;
     std::vector<double> volume_ratio, pressure;  ///< per vertex of the skin
-};
 
-SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
-                       const std::vector<Vec3>& nodes) {
-    const LayeredMesh& mesh = path.mesh();
-    const DryingField drying = path.stress_free();
-    const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
-                                            parameters.material.bulk_ratio);
-    const std::vector<double> stiffening = path.flesh_stiffening();
-    SolidSums sums;
-    sums.volume_ratio.assign(mesh.columns(), 0);
-    sums.pressure.assign(mesh.columns(), 0);
-    std::vector<int> adjacent(mesh.columns(), 0);
-    LayeredMesh now = mesh;
-    now.nodes = nodes;
-    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q) {
-        for (int k = 0; k < mesh.layers; ++k) {
-            const double factor = stiffening.empty() || k >= mesh.flesh_layers ? 1 : stiffening[q];
-            const HexMaterial material{factor * moduli.shear[k], factor * moduli.bulk[k], drying(q, k)};
-            const HexState state =
-                hexahedron_state(element_nodes(mesh, q, k), element_nodes(now, q, k), material);
-            (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += state.rest_volume;
-            (k < mesh.flesh_layers ? sums.flesh_now : sums.skin_now) += state.volume;
-            sums.dried_volume += state.rest_volume * state.drying_volume_ratio;
-            sums.smallest_total =
-                std::min(sums.smallest_total, state.smallest_elastic * state.drying_volume_ratio);
-            sums.smallest_elastic = std::min(sums.smallest_elastic, state.smallest_elastic);
-            sums.largest_elastic = std::max(sums.largest_elastic, state.largest_elastic);
-            if (k + 1 < mesh.layers) continue;
-            for (const std::int32_t vertex : mesh.brick.quads[q]) {
-                sums.volume_ratio[vertex] += state.elastic_volume_ratio;
-                sums.pressure[vertex] += state.pressure;
-                ++adjacent[vertex];
-            }
-        }
+    void add(const SolidSums& other) {
+        flesh_fresh += other.flesh_fresh;
+        flesh_now += other.flesh_now;
+        skin_fresh += other.skin_fresh;
+        skin_now += other.skin_now;
+        smallest_total = std::min(smallest_total, other.smallest_total);
+        smallest_elastic = std::min(smallest_elastic, other.smallest_elastic);
+        largest_elastic = std::max(largest_elastic, other.largest_elastic);
+        dried_volume += other.dried_volume;
     }
-    for (std::size_t v = 0; v < adjacent.size(); ++v) {
-        sums.volume_ratio[v] /= adjacent[v];
-        sums.pressure[v] /= adjacent[v];
-    }
-    return sums;
-}
+};
 
 /// Means of what adjacent quads have.
 std::vector<double> to_vertices(const geometry::BrickSurface& brick, const std::vector<double>& of_quads) {
@@ -73,6 +43,46 @@ std::vector<double> to_vertices(const geometry::BrickSurface& brick, const std::
             ++adjacent[vertex];
         }
     for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= adjacent[v];
+    return sums;
+}
+
+SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
+                       const std::vector<Vec3>& nodes) {
+    constexpr std::size_t kBlock = 256;  // quads
+    const LayeredMesh& mesh = path.mesh();
+    const DryingField drying = path.stress_free();
+    const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
+                                            parameters.material.bulk_ratio);
+    const std::vector<double> stiffening = path.flesh_stiffening();
+    LayeredMesh now = mesh;
+    now.nodes = nodes;
+    const std::size_t quads = mesh.brick.quads.size();
+    std::vector<double> volume_ratio(quads);
+    std::vector<double> pressure(quads);
+    std::vector<SolidSums> blocks((quads + kBlock - 1) / kBlock);
+    const auto add = [&](SolidSums& sums, std::size_t q, int k) {
+        const double factor = stiffening.empty() || k >= mesh.flesh_layers ? 1 : stiffening[q];
+        const HexMaterial material{factor * moduli.shear[k], factor * moduli.bulk[k], drying(q, k)};
+        const HexState state =
+            hexahedron_state(element_nodes(mesh, q, k), element_nodes(now, q, k), material);
+        (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += state.rest_volume;
+        (k < mesh.flesh_layers ? sums.flesh_now : sums.skin_now) += state.volume;
+        sums.dried_volume += state.rest_volume * state.drying_volume_ratio;
+        sums.smallest_total =
+            std::min(sums.smallest_total, state.smallest_elastic * state.drying_volume_ratio);
+        sums.smallest_elastic = std::min(sums.smallest_elastic, state.smallest_elastic);
+        sums.largest_elastic = std::max(sums.largest_elastic, state.largest_elastic);
+        volume_ratio[q] = state.elastic_volume_ratio;  // that of the outermost layer stays
+        pressure[q] = state.pressure;
+    };
+    parallel_blocks(quads, kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t q = begin; q < end; ++q)
+            for (int k = 0; k < mesh.layers; ++k) add(blocks[begin / kBlock], q, k);
+    });
+    SolidSums sums;
+    for (const SolidSums& block : blocks) sums.add(block);
+    sums.volume_ratio = to_vertices(mesh.brick, volume_ratio);
+    sums.pressure = to_vertices(mesh.brick, pressure);
     return sums;
 }
 

@@ -4,17 +4,25 @@
 #include <atomic>
 #include <cmath>
 
+#include "drying/vector_loops.h"
+
 namespace windfall::drying {
 
 namespace {
 
 constexpr std::size_t kBlockColumns = 256;
 
-/// Largest magnitude in [begin, end).
+/// Largest magnitude in [begin, end), with running maxima side by side so that it vectorises.
 float largest_magnitude(const float* begin, const float* end) {
-    float largest = 0;
-    for (const float* p = begin; p != end; ++p) largest = std::max(largest, std::abs(*p));
-    return largest;
+    constexpr std::ptrdiff_t kLanes = 32;
+    float largest[kLanes] = {};
+    for (; end - begin >= kLanes; begin += kLanes)
+        for (std::ptrdiff_t k = 0; k < kLanes; ++k) {
+            const float magnitude = std::abs(begin[k]);
+            largest[k] = magnitude > largest[k] ? magnitude : largest[k];
+        }
+    for (; begin != end; ++begin) largest[0] = std::max(largest[0], std::abs(*begin));
+    return *std::max_element(largest, largest + kLanes);
 }
 
 float largest_magnitude(const AlignedArray<float>& values, std::size_t size) {
@@ -33,12 +41,6 @@ float half_precision_scale(float largest) {
     return std::exp2(std::floor(std::log2(8192.0F / largest)));
 }
 
-double dot(const float* a, const float* b, std::size_t size) {
-    double sum = 0;
-    for (std::size_t i = 0; i < size; ++i) sum += static_cast<double>(a[i]) * b[i];
-    return sum;
-}
-
 Range range_of(std::size_t begin, std::size_t end) {
     return {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)};
 }
@@ -52,24 +54,25 @@ struct Multigrid::Level {
     AlignedArray<std::uint16_t> packed;
     float matrix_scale = 1;
     float inverse_scale = 1;
-    AlignedArray<float> b, x, residual;                   ///< b, x: below the finest level only
-    AlignedArray<float> defect, swept, direction, image;  ///< coarsest level only
+    AlignedArray<float> residual;
+    AlignedArray<float> b, x;  ///< these and those below: not on the finest level
+    AlignedArray<float> defect, corrected, direction, image;
 
     // To the next coarser level; empty on the coarsest.
     std::vector<std::int32_t> child_begin, child_column, parent_count;
     std::vector<float> child_weight;
     std::vector<std::array<std::int32_t, 4>> parent;
 
-    Level(geometry::BrickSurface surface, int layers, bool finest)
+    Level(geometry::BrickSurface surface, int layers, bool below)
         : brick(std::move(surface)),
           order(make_column_order(brick)),
           diagonal(columns() * 18 * layers),
           lower(order.lower_column.size() * 27 * layers),
           packed((columns() * 9 * layers + order.lower_column.size() * 27) * layers),
           residual(columns() * 3 * layers) {
-        if (finest) return;
-        b = AlignedArray<float>(columns() * 3 * layers);
-        x = AlignedArray<float>(columns() * 3 * layers);
+        if (!below) return;
+        for (AlignedArray<float>* array : {&b, &x, &defect, &corrected, &direction, &image})
+            *array = AlignedArray<float>(residual.size());
     }
 
     std::size_t columns() const { return order.vertex_of_solver.size(); }
@@ -110,18 +113,15 @@ struct Multigrid::Level {
     }
 };
 
-Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table)
-    : m_layers(layers), m_table(table) {
-    m_levels.push_back(std::make_unique<Level>(brick, layers, true));
+Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table,
+                     std::size_t krylov_columns)
+    : m_layers(layers), m_table(table), m_krylov_columns(krylov_columns) {
+    m_levels.push_back(std::make_unique<Level>(brick, layers, false));
     while (geometry::can_coarsen(m_levels.back()->brick.cells)) {
         m_levels.push_back(std::make_unique<Level>(
-            geometry::make_brick_surface(geometry::coarser(m_levels.back()->brick.cells)), layers, false));
+            geometry::make_brick_surface(geometry::coarser(m_levels.back()->brick.cells)), layers, true));
         m_levels[m_levels.size() - 2]->connect(*m_levels.back());
     }
-    Level& coarsest = *m_levels.back();
-    for (AlignedArray<float>* array :
-         {&coarsest.defect, &coarsest.swept, &coarsest.direction, &coarsest.image})
-        *array = AlignedArray<float>(coarsest.columns() * 3 * layers);
     m_inverse = AlignedArray<float>(m_levels.front()->columns() * 9 * layers * layers);
 }
 
@@ -181,7 +181,6 @@ void Multigrid::product(const float* x, float* y) const { product(*m_levels.fron
 void Multigrid::apply(const float* b, float* x) { cycle(0, b, x); }
 
 void Multigrid::cycle(std::size_t l, const float* b, float* x) {
-    if (l + 1 == m_levels.size()) return solve_coarsest(b, x);
     Level& level = *m_levels[l];
     Level& coarse = *m_levels[l + 1];
     const MatrixArrays matrix = level.matrix();
@@ -193,7 +192,7 @@ void Multigrid::cycle(std::size_t l, const float* b, float* x) {
         m_table.restrict_residual(level.transfer(), 1.0F / level.matrix_scale, residual, coarse.b.data(),
                                   range_of(begin, end));
     });
-    cycle(l + 1, coarse.b.data(), coarse.x.data());
+    solve(l + 1, coarse.b.data(), coarse.x.data());
     parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
         m_table.prolong(level.transfer(), coarse.x.data(), x, residual, range_of(begin, end));
     });
@@ -214,45 +213,56 @@ void Multigrid::smooth(Level& level, const float* b, float* x) {
     });
 }
 
-/// Conjugate gradients on symmetric Gauss-Seidel sweeps. Volume change over the whole fruit is seen on this
-/// level only: three plain sweeps instead cost the outer iteration up to twice as many steps. The cycle is
-/// thereby not quite linear, which the outer iteration (Polak-Ribiere) allows for.
-void Multigrid::solve_coarsest(const float* b, float* x) {
-    constexpr int kLimit = 40;
-    constexpr double kToleranceSq = 1e-2 * 1e-2;
-    Level& level = *m_levels.back();
-    const std::size_t size = level.columns() * 3 * m_layers;
-    float* defect = level.defect.data();
-    float* swept = level.swept.data();
-    float* direction = level.direction.data();
-    float* image = level.image.data();
-    for (std::size_t i = 0; i < size; ++i) {
-        defect[i] = b[i];
+/// The coarsest level is solved nearly exactly: volume change over the whole fruit is seen there only, and
+/// three plain sweeps instead cost the outer iteration up to twice as many steps. Large levels take two
+/// iterations (a K-cycle: Notay and Vassilevski 2008): what they interpolate changes volume, so that a plain
+/// cycle's corrections get worse with every level. The cycle is thereby not quite linear, which the outer
+/// iteration allows for.
+void Multigrid::solve(std::size_t l, const float* b, float* x) {
+    Level& level = *m_levels[l];
+    if (l + 1 == m_levels.size())
+        krylov(level, b, x, {40, 1e-2},
+               [&](const float* defect, float* corrected) { smooth(level, defect, corrected); });
+    else if (level.columns() >= m_krylov_columns)
+        krylov(level, b, x, {2, 0},
+               [&](const float* defect, float* corrected) { cycle(l, defect, corrected); });
+    else
+        cycle(l, b, x);
+}
+
+template <class Preconditioner>
+void Multigrid::krylov(Level& level, const float* b, float* x, KrylovSettings settings,
+                       const Preconditioner& precondition) const {
+    const std::size_t size = level.b.size();
+    float* r = level.defect.data();
+    float* z = level.corrected.data();
+    float* p = level.direction.data();
+    float* q = level.image.data();
+    for_elements(size, [&](std::size_t i) {
+        r[i] = b[i];
         x[i] = 0;
-    }
-    double last = 0;
+    });
     double first = 0;
-    for (int k = 0; k < kLimit; ++k) {
-        smooth(level, defect, swept);
-        const double now = dot(defect, swept, size);
-        if (k == 0) first = now;
-        if (!(now > kToleranceSq * first)) break;
-        const auto beta = static_cast<float>(k == 0 ? 0 : now / last);
-        last = now;
-        if (k == 0) std::fill(direction, direction + size, 0.0F);
-        for (std::size_t i = 0; i < size; ++i) direction[i] = swept[i] + beta * direction[i];
-        product(level, direction, image);
-        const double curvature = dot(direction, image, size);
+    double curvature = 0;
+    for (int k = 0; k < settings.iterations; ++k) {
+        precondition(r, z);
+        const auto [rz, qz] = dots(r, q, z, size);
+        if (k == 0) first = rz;
+        if (!(rz > settings.tolerance * settings.tolerance * first)) return;
+        if (k == 0) {
+            for_elements(size, [&](std::size_t i) { p[i] = z[i]; });
+        } else {
+            const auto beta = static_cast<float>(std::max(0.0, -qz / curvature));
+            for_elements(size, [&](std::size_t i) { p[i] = z[i] + beta * p[i]; });
+        }
+        product(level, p, q);
+        curvature = dot(p, q, size);
         if (!(curvature > 0)) {
             // An indefinite coarse matrix: what has been found so far is still a direction of descent.
-            if (k == 0) std::copy(swept, swept + size, x);
-            break;
+            if (k == 0) std::copy(z, z + size, x);
+            return;
         }
-        const auto alpha = static_cast<float>(now / curvature);
-        for (std::size_t i = 0; i < size; ++i) {
-            x[i] += alpha * direction[i];
-            defect[i] -= alpha * image[i];
-        }
+        advance(static_cast<float>(rz / curvature), p, q, x, r, size);
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Preconditioner of the Newton systems: a V(1,1) cycle that coarsens the two surface directions by 2 and
+// Preconditioner of the Newton systems: a K(1,1) cycle that coarsens the two surface directions by 2 and
 // keeps the columns whole. Smoother: symmetric block Gauss-Seidel whose blocks are whole columns, in half
 // precision. Coarse matrices: Galerkin. Coarsest level: nearly exact, by conjugate gradients.
 #include <memory>
@@ -13,8 +13,13 @@ namespace windfall::drying {
 
 class Multigrid {
   public:
+    /// Levels below the finest that have at least so many columns take two conjugate gradient iterations
+    /// instead of one cycle. On smaller ones they save less than they cost (docs/performance.md).
+    static constexpr std::size_t kKrylovColumns = 8000;
+
     /// `layers`: 8 or 16. Allocates everything; the finest matrix is zero.
-    Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table);
+    Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table,
+              std::size_t krylov_columns = kKrylovColumns);
     ~Multigrid();
     Multigrid(const Multigrid&) = delete;
     Multigrid& operator=(const Multigrid&) = delete;
@@ -35,7 +40,7 @@ class Multigrid {
     /// positive definite: then neither is the matrix, and `apply` must not be called.
     bool set_up();
 
-    /// x = one V-cycle for A x = b, from zero; nearly symmetric and, where A is, positive definite.
+    /// x = one cycle for A x = b, from zero; nearly symmetric and, where A is, positive definite.
     void apply(const float* b, float* x);
     /// y = A x
     void product(const float* x, float* y) const;
@@ -45,11 +50,21 @@ class Multigrid {
     bool set_up_smoother(Level& level);
     void cycle(std::size_t level, const float* b, float* x);
     void smooth(Level& level, const float* b, float* x);
-    void solve_coarsest(const float* b, float* x);
     void product(Level& level, const float* x, float* y) const;
+    void solve(std::size_t level, const float* b, float* x);
+    /// Conjugate gradients from x = 0 until the residual has fallen by `tolerance` (in the preconditioner's
+    /// norm). `precondition(r, z)` need not be linear.
+    struct KrylovSettings {
+        int iterations = 1;
+        double tolerance = 0;
+    };
+    template <class Preconditioner>
+    void krylov(Level& level, const float* b, float* x, KrylovSettings settings,
+                const Preconditioner& precondition) const;
 
     int m_layers;
     const KernelTable& m_table;
+    std::size_t m_krylov_columns;
     std::vector<std::unique_ptr<Level>> m_levels;  ///< finest first
     AlignedArray<float> m_inverse;                 ///< of the level that is being set up
 };

@@ -218,7 +218,7 @@ NewtonResult NewtonSolver::minimize(AlignedArray<double>& displacement, const Da
         result.linear_iterations += linear.iterations;
         if (linear.status == LinearStatus::NotDefinite) break;
         if (linear.status == LinearStatus::NegativeCurvature) result.indefinite = true;
-        const double step_length = std::sqrt(m_linear.mass_dot(m_step, m_step)) * settings.reference_force;
+        const double step_length = m_linear.length(m_step) * settings.reference_force;
         take_step(m_current, m_trial, settings.reference_force);
         evaluate(m_trial, damping, &m_current);
         const int corrections =

@@ -164,7 +164,8 @@ void add_numerics(Table& t) {
           "over r_1^2",
           {.minimum = 0, .maximum = 1000});
     t.add("solver.late_viscosity", "1", [](auto& p) -> auto& { return p.solver.late_viscosity; },
-          "the same once the wrinkles stand", {.minimum = 0, .maximum = 1000});
+          "the same once wrinkles of the base case's length stand; shorter ones take more",
+          {.minimum = 0, .maximum = 1000});
     t.add("solver.newton_tolerance", "1", [](auto& p) -> auto& { return p.solver.newton_tolerance; },
           "out-of-balance force at which an increment is accepted, over the reference force",
           {.maximum = 1, .above = 0});
