@@ -21,11 +21,11 @@ def run(command, folder, environment=None, limit_s=None):
     """Runs a command to its end, or interrupts it after `limit_s` and kills it where it does not heed that.
 
     Returns its exit code, its output (both streams), and a dictionary of wall and processor seconds, peak memory in
-    bytes, and whether the limit was reached.
+    bytes, the moment of its start as files carry it, and whether the limit was reached.
     """
     limited = []
     with tempfile.TemporaryFile(dir=folder) as output:
-        start = time.monotonic()
+        began, start = time.time(), time.monotonic()
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output,
                                    stderr=subprocess.STDOUT, env={**os.environ, **(environment or {})})
 
@@ -53,7 +53,7 @@ def run(command, folder, environment=None, limit_s=None):
         text = output.read().decode(errors="replace")
     return process.returncode, text, {
         "wall": wall, "processor": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss * 1024,
-        "limited": bool(limited)}
+        "began": began, "limited": bool(limited)}
 
 
 def summary_of(take):
