@@ -130,6 +130,24 @@ TEST(FibresDry, FibresThatShrinkLessKeepTheFruitLong) {
     EXPECT_GT(length_over_width({Latitudinal, Flesh, 10, 1}), 1);
 }
 
+/// Of the wrinkles past their onset.
+double meridian_alignment(const FibreParameters& fibres) {
+    DryingPath path = sphere(fibres, 16, ImperfectionKind::Noise);
+    path.advance(0.15, {});
+    EXPECT_GT(path.onset(), 0);
+    const geometry::LayeredMesh& mesh = path.mesh();
+    return measure_ridges(mesh.level_positions(mesh.layers), mesh.faces(), path.skin_depth())
+        .meridian_alignment;
+}
+
+TEST(FibresDry, WrinklesTurnAlongFibresThatShrinkLess) {
+    // They leave the skin less to wrinkle for along themselves than across.
+    const double without = meridian_alignment({});
+    EXPECT_LT(std::abs(without), 0.1);
+    EXPECT_GT(meridian_alignment({FibreDirection::Meridional, FibreLayer::Flesh, 10, 0.3}), without + 0.15);
+    EXPECT_LT(meridian_alignment({FibreDirection::Latitudinal, FibreLayer::Flesh, 10, 0.3}), without - 0.15);
+}
+
 bool same_bits(const AlignedArray<double>& a, const AlignedArray<double>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
