@@ -275,7 +275,7 @@ std::vector<std::string> presets_of(const std::string& process) {
 
 TEST(Presets, AllLoad) {
     EXPECT_THAT(presets_of("drying"),
-                testing::ElementsAre("banana", "bean", "date", "fig", "jujube", "jujube-plump", "mandarin",
+                testing::ElementsAre("banana", "bean", "emblic", "fig", "jujube", "jujube-plump", "mandarin",
                                      "pepper", "plum", "plum-round", "potato", "raisin", "raisin-soaked",
                                      "raisin-sun", "sphere", "wolfberry"));
     EXPECT_THAT(presets_of("fracture"),
