@@ -68,7 +68,7 @@ class Elasticity {
   private:
     ElementArrays arrays() const;
     FibreArrays fibre_arrays() const { return {m_relaxed_fibres.data()}; }
-    void set_fibres(const DryingField& drying);
+    void set_fibres(const DryingField& field);
 
     Multigrid& m_multigrid;
     std::int64_t m_moduli_stride = 0;
