@@ -123,15 +123,13 @@ BucklingModes find_buckling_modes(const LayeredMesh& mesh, const DryingParameter
     path.advance(beyond, context);
 
     Multigrid beyond_multigrid(mesh.brick, mesh.layers, kernels(mesh.layers));
-    Elasticity beyond_elasticity(mesh,
-                                 layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
-                                              parameters.material.bulk_ratio),
-                                 beyond_multigrid);
-    beyond_elasticity.set_drying(path.drying().at(beyond));
+    Elasticity beyond_elasticity(mesh, path.moduli(), beyond_multigrid, path.flesh_stiffening(),
+                                 path.fibres());
+    beyond_elasticity.set_drying(path.drying_field_at(beyond));
     beyond_elasticity.assemble(path.state().displacements.front(), 1, 0);
 
     Elasticity& elasticity = path.elasticity();
-    elasticity.set_drying(path.drying().at(start));
+    elasticity.set_drying(path.drying_field_at(start));
     elasticity.assemble(at_start, 1, 0);
     if (!elasticity.multigrid().set_up())
         throw RunError(

@@ -97,6 +97,10 @@ std::string calculix_deck(const LayeredMesh& mesh, const DryingParameters& param
     check_isotropic(parameters.drying);
     if (parameters.segments.count > 0)
         throw InputError("a CalculiX deck holds fruit without walls only: set segments.count = 0");
+    if (parameters.fibres.on())
+        throw InputError(
+            "a CalculiX deck holds fruit without fibres only: set fibres.direction = \"none\", or export the "
+            "frames instead");
     const double shrinkage = parameters.drying.shrinkage * parameters.drying.radial;
     const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
                                             parameters.material.bulk_ratio);

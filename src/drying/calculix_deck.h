@@ -14,7 +14,7 @@ int calculix_node(const geometry::LayeredMesh& mesh, std::size_t vertex, int lev
 /// The deck: C3D8 elements in the sets FLESH and SKIN, node sets ALL, STONE (fixed) and SKIN_SURFACE, whose
 /// displacements are printed at the end of the drying. Lengths in r_1, stresses in C0 of the flesh. `mesh` is
 /// the fresh body, imperfection included. Throws InputError for anisotropic drying, which the deck's thermal
-/// expansion cannot express.
+/// expansion cannot express, and for walls and fibres.
 std::string calculix_deck(const geometry::LayeredMesh& mesh, const DryingParameters& parameters);
 
 }  // namespace windfall::drying

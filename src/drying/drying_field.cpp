@@ -5,8 +5,8 @@
 
 namespace windfall::drying {
 
-RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkageParameters& parameters)
-    : m_parameters(parameters), m_flesh_layers(mesh.flesh_layers) {
+std::vector<Eigen::Matrix3d> fruit_directions(const geometry::LayeredMesh& mesh) {
+    std::vector<Eigen::Matrix3d> result;
     const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
     for (const auto& quad : mesh.brick.quads) {
         Eigen::Vector3d radial = Eigen::Vector3d::Zero();
@@ -18,9 +18,13 @@ RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkagePar
         latitudinal.normalize();
         Eigen::Matrix3d frame;
         frame << radial, latitudinal.cross(radial), latitudinal;
-        m_frames.push_back(frame);
+        result.push_back(frame);
     }
+    return result;
 }
+
+RecipeDrying::RecipeDrying(const geometry::LayeredMesh& mesh, const ShrinkageParameters& parameters)
+    : m_parameters(parameters), m_flesh_layers(mesh.flesh_layers), m_directions(fruit_directions(mesh)) {}
 
 Eigen::Matrix3d RecipeDrying::element(std::size_t quad, int layer, double shrinkage) const {
     const double own = layer < m_flesh_layers ? shrinkage : shrinkage * m_parameters.skin_fraction;
@@ -29,7 +33,7 @@ Eigen::Matrix3d RecipeDrying::element(std::size_t quad, int layer, double shrink
     // Exactly a multiple of the identity where it should be: rounding in the frames must not leak in.
     if (stretches.x() == stretches.y() && stretches.y() == stretches.z())
         return stretches.x() * Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d& frame = m_frames[quad];
+    const Eigen::Matrix3d& frame = m_directions[quad];
     return frame * stretches.asDiagonal() * frame.transpose();
 }
 

@@ -5,6 +5,9 @@
 
 namespace windfall::drying {
 
+/// The directions of the fruit at every quad of the brick: columns radial, meridional, latitudinal, unit.
+std::vector<Eigen::Matrix3d> fruit_directions(const geometry::LayeredMesh& mesh);
+
 /// Fd of every element at a shrinkage: stretches 1 - factor * shrinkage along the radial, meridional and
 /// latitudinal directions of the element; in the skin the factors are multiplied by skin_fraction.
 class RecipeDrying {
@@ -19,7 +22,7 @@ class RecipeDrying {
   private:
     ShrinkageParameters m_parameters;
     int m_flesh_layers;
-    std::vector<Eigen::Matrix3d> m_frames;  ///< per quad: columns radial, meridional, latitudinal
+    std::vector<Eigen::Matrix3d> m_directions;  ///< per quad, see fruit_directions
 };
 
 }  // namespace windfall::drying

@@ -43,16 +43,15 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
       m_parameters(parameters),
       m_drying(m_mesh, parameters.drying),
       m_course(std::move(course)),
-      m_walls(wall_parts(m_mesh, parameters.segments)) {
+      m_walls(wall_parts(m_mesh, parameters.segments)),
+      m_moduli(layer_moduli(m_mesh.flesh_layers, m_mesh.layers, parameters.material.gamma,
+                            parameters.material.bulk_ratio)),
+      m_fibres(make_fibres(m_mesh, parameters.fibres, m_moduli)) {
     if (m_course == nullptr)
         m_course = std::make_unique<GivenShrinkage>(m_drying, parameters.drying.shrinkage);
     m_state.course = m_course->start();
     m_multigrid = std::make_unique<Multigrid>(m_mesh.brick, m_mesh.layers, kernels(m_mesh.layers));
-    m_elasticity =
-        std::make_unique<Elasticity>(m_mesh,
-                                     layer_moduli(m_mesh.flesh_layers, m_mesh.layers,
-                                                  parameters.material.gamma, parameters.material.bulk_ratio),
-                                     *m_multigrid, flesh_stiffening());
+    m_elasticity = std::make_unique<Elasticity>(m_mesh, m_moduli, *m_multigrid, flesh_stiffening(), m_fibres);
     if (parameters.contact.gap > 0)
         m_contact = std::make_unique<SkinContact>(m_mesh, m_multigrid->order(),
                                                   parameters.contact.gap * parameters.fruit.skin_thickness,
@@ -68,7 +67,7 @@ DryingPath::DryingPath(geometry::LayeredMesh mesh, const DryingParameters& param
     // ratio it is of the size of the shear forces that shape the wrinkles.
     constexpr double kReferenceShrinkage = 0.01;
     AlignedArray<double> force(m_elasticity->size());
-    m_elasticity->set_drying(walled(m_drying.at(kReferenceShrinkage)));
+    m_elasticity->set_drying(drying_field_at(kReferenceShrinkage));
     m_elasticity->energy(m_state.displacements.front(), &force);
     m_reference_force = norm_of(force) / parameters.material.bulk_ratio;
 }
@@ -162,7 +161,8 @@ bool DryingPath::attempt(double target, const RunContext& context) {
     const AlignedArray<double>& start = m_state.displacements.front();
     const AlignedArray<double> drifted = drift(step);
     const Damping damping{&drifted, viscosity() * m_parameters.drying.shrinkage / step};
-    m_elasticity->set_drying(with_set(walled(increment.field), m_state.set, m_mesh.layers));
+    const DryingField drying = walled(increment.field);
+    m_elasticity->set_drying(with_set(drying, m_state.set, m_mesh.layers), drying);
     AlignedArray<double> displacement = predict(step);
     if (m_contact != nullptr) {
         const double part = m_contact->free_part(start, displacement);

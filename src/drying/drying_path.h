@@ -7,6 +7,7 @@
 
 #include "core/run_context.h"
 #include "drying/drying_course.h"
+#include "drying/fibres.h"
 #include "drying/newton.h"
 #include "drying/plastic_set.h"
 #include "drying/segments.h"
@@ -67,6 +68,8 @@ class DryingPath {
     double shrinkage() const { return m_state.course.shrinkage; }
     /// Fd of every element now.
     DryingField drying_field() const { return walled(m_course->field(m_state.course)); }
+    /// Fd of every element where all flesh has one shrinkage.
+    DryingField drying_field_at(double shrinkage) const { return walled(m_drying.at(shrinkage)); }
     const DryingCourse& course() const { return *m_course; }
     /// Shrinkage at which the skin's depth passed a tenth of its thickness; negative before that.
     double onset() const;
@@ -76,7 +79,9 @@ class DryingPath {
     NewtonSolver& newton() { return *m_newton; }
     /// Null where the skin may pass through itself.
     SkinContact* contact() { return m_contact.get(); }
-    const RecipeDrying& drying() const { return m_drying; }
+    /// The material: moduli by layer, fibres, and below what walls make of the moduli.
+    const LayerModuli& moduli() const { return m_moduli; }
+    const Fibres& fibres() const { return m_fibres; }
     /// Factors of the flesh's moduli by quad of the brick; empty: 1 everywhere.
     std::vector<double> flesh_stiffening() const { return wall_stiffening(m_walls, m_parameters.segments); }
     /// The stretch of the stress-free state, element by element, now: of drying and of plastic set. Valid
@@ -110,6 +115,8 @@ class DryingPath {
     RecipeDrying m_drying;
     std::unique_ptr<DryingCourse> m_course;
     std::vector<double> m_walls;  ///< see segments.h
+    LayerModuli m_moduli;
+    Fibres m_fibres;
     std::unique_ptr<Multigrid> m_multigrid;
     std::unique_ptr<Elasticity> m_elasticity;
     std::unique_ptr<SkinContact> m_contact;

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "drying/element.h"
 
@@ -18,7 +19,7 @@ LayerModuli layer_moduli(int flesh_layers, int layers, double gamma, double bulk
 }
 
 Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid,
-                       const std::vector<double>& flesh_stiffening)
+                       const std::vector<double>& flesh_stiffening, Fibres fibres)
     : m_multigrid(multigrid),
       m_moduli_stride(flesh_stiffening.empty() ? 0 : mesh.layers),
       m_rest(multigrid.vector_size()),
@@ -27,7 +28,9 @@ Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& mod
       m_bulk(m_shear.size()),
       m_dehydration(mesh.brick.quads.size() * 7 * mesh.layers),
       m_mass(mesh.columns() * mesh.layers),
-      m_mean_weights(mesh.columns() * mesh.layers) {
+      m_mean_weights(mesh.columns() * mesh.layers),
+      m_fibres(std::move(fibres)),
+      m_relaxed_fibres(m_fibres.directions.size() * kFibreEntries * mesh.layers) {
     const ColumnOrder& order = multigrid.order();
     const auto layers = static_cast<std::size_t>(mesh.layers);
     for (std::size_t i = 0; i < m_shear.size(); ++i) {
@@ -63,7 +66,7 @@ Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& mod
     set_drying([](std::size_t, int) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); });
 }
 
-void Elasticity::set_drying(const DryingField& field) {
+void Elasticity::set_drying(const DryingField& stress_free, const DryingField& drying_alone) {
     const ColumnOrder& order = m_multigrid.order();
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
     constexpr std::size_t kBlock = 256;
@@ -71,12 +74,37 @@ void Elasticity::set_drying(const DryingField& field) {
         for (std::size_t q = begin; q < end; ++q) {
             double* out = m_dehydration.data() + q * 7 * layers;
             for (std::size_t k = 0; k < layers; ++k) {
-                const Eigen::Matrix3d drying = field(order.brick_quad[q], static_cast<int>(k));
+                const Eigen::Matrix3d drying = stress_free(order.brick_quad[q], static_cast<int>(k));
                 const Eigen::Matrix3d inverse = drying.inverse();
                 const Eigen::Matrix3d inv_cd = inverse * inverse.transpose();
                 const double values[7] = {drying.determinant(), inv_cd(0, 0), inv_cd(0, 1), inv_cd(0, 2),
                                           inv_cd(1, 1),         inv_cd(1, 2), inv_cd(2, 2)};
                 for (std::size_t i = 0; i < 7; ++i) out[i * layers + k] = values[i];
+            }
+        }
+    });
+    if (!m_fibres.empty()) set_fibres(drying_alone);
+}
+
+Eigen::Vector3d Fibres::relaxed(std::size_t quad, const Eigen::Matrix3d& drying) const {
+    const Eigen::Vector3d& direction = directions[quad];
+    return direction / (direction + shrinkage * (drying * direction - direction)).norm();
+}
+
+void Elasticity::set_fibres(const DryingField& field) {
+    const ColumnOrder& order = m_multigrid.order();
+    const auto layers = static_cast<std::size_t>(m_multigrid.layers());
+    constexpr std::size_t kBlock = 256;
+    parallel_blocks(order.quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t q = begin; q < end; ++q) {
+            const auto quad = static_cast<std::size_t>(order.brick_quad[q]);
+            double* out = m_relaxed_fibres.data() + q * kFibreEntries * layers;
+            for (std::size_t k = 0; k < layers; ++k) {
+                const auto layer = static_cast<int>(k);
+                const Eigen::Matrix3d drying = field(quad, layer);
+                const Eigen::Vector3d relaxed = m_fibres.relaxed(quad, drying);
+                for (std::size_t i = 0; i < 3; ++i) out[i * layers + k] = relaxed[static_cast<int>(i)];
+                out[3 * layers + k] = m_fibres.moduli[k] * drying.determinant();
             }
         }
     });
@@ -107,6 +135,9 @@ ElasticEnergy Elasticity::energy(const AlignedArray<double>& displacement,
         sums.resize(ranges.size());
         for_ranges(ranges, [&](std::size_t i) {
             sums[i] = m_multigrid.table().energy(elements, displacement.data(), out, ranges[i]);
+            if (!m_fibres.empty())
+                sums[i].energy += m_multigrid.table().fibre_energy(elements, fibre_arrays(),
+                                                                   displacement.data(), out, ranges[i]);
         });
         for (const EnergySums& sum : sums) {
             result.energy += sum.energy;
@@ -124,6 +155,9 @@ void Elasticity::assemble(const AlignedArray<double>& displacement, double geome
     const auto* pair_entry = reinterpret_cast<const std::int32_t(*)[6]>(order.pair_entry.data());
     for_schedule(order.quad_ranges, [&](Range range) {
         m_multigrid.table().assemble(elements, displacement.data(), pair_entry, {geometric}, matrix, range);
+        if (!m_fibres.empty())
+            m_multigrid.table().assemble_fibres(elements, fibre_arrays(), displacement.data(), pair_entry,
+                                                {geometric}, matrix, range);
     });
     if (mass_factor == 0) return;
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());

@@ -17,6 +17,17 @@ struct LayerModuli {
 };
 LayerModuli layer_moduli(int flesh_layers, int layers, double gamma, double bulk_ratio);
 
+/// Fibres in the body: by quad of the brick a direction in the fresh fruit, by layer Young's modulus that
+/// they add along it (see fibres.h).
+struct Fibres {
+    std::vector<Eigen::Vector3d> directions;  ///< unit; empty: no fibres
+    std::vector<double> moduli;               ///< in C0 of the flesh
+    double shrinkage = 1;                     ///< along themselves, as a fraction of what is around them
+    bool empty() const { return directions.empty(); }
+    /// The direction over the length free of stress; `drying`: Fd of the element.
+    Eigen::Vector3d relaxed(std::size_t quad, const Eigen::Matrix3d& drying) const;
+};
+
 /// The drying part Fd of an element's deformation gradient, by quad of the brick and layer; symmetric.
 using DryingField = std::function<Eigen::Matrix3d(std::size_t quad, int layer)>;
 
@@ -33,10 +44,12 @@ class Elasticity {
     /// Keeps a reference to `multigrid`, whose finest matrix it assembles into, and copies all else.
     /// `flesh_stiffening`: by quad of the brick, factors of the moduli of its flesh; empty: 1 everywhere.
     Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& moduli, Multigrid& multigrid,
-               const std::vector<double>& flesh_stiffening = {});
+               const std::vector<double>& flesh_stiffening = {}, Fibres fibres = {});
 
     /// Sets Fd of every element. Fd = I, the fresh state, at first.
-    void set_drying(const DryingField& field);
+    void set_drying(const DryingField& field) { set_drying(field, field); }
+    /// The same with plastic set, of which fibres know nothing: they have their length from the drying alone.
+    void set_drying(const DryingField& stress_free, const DryingField& drying_alone);
 
     /// Energy; with `force` not null sets it to the energy's gradient.
     ElasticEnergy energy(const AlignedArray<double>& displacement, AlignedArray<double>* force) const;
@@ -54,11 +67,15 @@ class Elasticity {
 
   private:
     ElementArrays arrays() const;
+    FibreArrays fibre_arrays() const { return {m_relaxed_fibres.data()}; }
+    void set_fibres(const DryingField& field);
 
     Multigrid& m_multigrid;
     std::int64_t m_moduli_stride = 0;
     AlignedArray<double> m_rest, m_base, m_shear, m_bulk, m_dehydration, m_mass;
     AlignedArray<float> m_mean_weights;
+    Fibres m_fibres;
+    AlignedArray<double> m_relaxed_fibres;  ///< as FibreArrays; empty without fibres
 };
 
 }  // namespace windfall::drying

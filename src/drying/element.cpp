@@ -84,17 +84,26 @@ HexResponse hexahedron_response(const HexNodes& rest, const HexNodes& now, const
         const Gradients to_dried = gradients * rest_jacobian.inverse() * inv_drying;
         const Gradients to_now = gradients * now_jacobian.inverse();
         const double mu = material.shear * jd * w;
+        // F p, whose square is I4, and Young's modulus E times the dried volume
+        const Eigen::Vector3d fibre = now_jacobian * rest_jacobian.inverse() * material.fibre;
+        const Eigen::Matrix<double, 8, 1> along = gradients * rest_jacobian.inverse() * material.fibre;
+        const double excess = fibre.squaredNorm() - 1;
+        const double modulus = material.fibre_modulus * jd * w;
+        response.energy += modulus / 8 * excess * excess;
         response.energy += mu * (0.5 * (elastic.squaredNorm() - 3) - std::log(elastic.determinant()));
         for (int a = 0; a < 8; ++a) {
             const Eigen::Vector3d force =
                 mu * (elastic * to_dried.row(a).transpose() - to_now.row(a).transpose());
-            response.gradient.segment<3>(3 * a) += force;
+            response.gradient.segment<3>(3 * a) += force + modulus / 2 * excess * along[a] * fibre;
             volume_gradient.segment<3>(3 * a) += w_now * to_now.row(a).transpose();
             for (int b = 0; b < 8; ++b) {
                 const Eigen::Matrix3d ab = to_now.row(a).transpose() * to_now.row(b);
                 response.hessian.block<3, 3>(3 * a, 3 * b) +=
                     mu *
                     (to_dried.row(a).dot(to_dried.row(b)) * Eigen::Matrix3d::Identity() + ab.transpose());
+                response.hessian.block<3, 3>(3 * a, 3 * b) +=
+                    modulus / 2 * along[a] * along[b] *
+                    (excess * Eigen::Matrix3d::Identity() + 2 * fibre * fibre.transpose());
                 volume_hessian.block<3, 3>(3 * a, 3 * b) += w_now * (ab - ab.transpose());
             }
         }
@@ -125,6 +134,10 @@ HexState hexahedron_state(const HexNodes& rest, const HexNodes& now, const HexMa
         // mu / J (Fe Fe^T - I), summed over the current volume
         state.stress += material.shear * w * state.drying_volume_ratio *
                         (fe * fe.transpose() - Eigen::Matrix3d::Identity());
+        // E / 2 (I4 - 1) (F p)(F p)^T / J
+        const Eigen::Vector3d fibre = now_jacobian * rest_jacobian.inverse() * material.fibre;
+        state.stress += material.fibre_modulus / 2 * w * state.drying_volume_ratio *
+                        (fibre.squaredNorm() - 1) * fibre * fibre.transpose();
         state.smallest_elastic = first ? elastic : std::min(state.smallest_elastic, elastic);
         state.largest_elastic = first ? elastic : std::max(state.largest_elastic, elastic);
         state.rest_volume += w;

@@ -23,6 +23,8 @@ struct HexMaterial {
     double shear = 1;
     double bulk = 1;
     Eigen::Matrix3d drying = Eigen::Matrix3d::Identity();  ///< Fd
+    Eigen::Vector3d fibre = Eigen::Vector3d::UnitX();      ///< fresh direction over the length without stress
+    double fibre_modulus = 0;
 };
 
 /// Energy and its derivatives: gradient[3 a + i], hessian(3 a + i, 3 b + j).

@@ -101,6 +101,26 @@ void add_segments(Table& t) {
           {.minimum = 0, .maximum = 1});
 }
 
+void add_fibres(Table& t) {
+    t.add_choice(
+        "fibres.direction", [](auto& p) -> auto& { return p.fibres.direction; },
+        {"none", "radial", "meridional", "latitudinal"},
+        "which way fibres run: across the layers, along the meridians (from pole to pole), or along the "
+        "circles "
+        "of latitude; none: there are none");
+    t.add_choice(
+        "fibres.layer", [](auto& p) -> auto& { return p.fibres.layer; }, {"flesh", "skin", "both"},
+        "where they run");
+    t.add("fibres.stiffness", "1", [](auto& p) -> auto& { return p.fibres.stiffness; },
+          "Young's modulus that they add along themselves, over the shear modulus of the flesh (in the skin: "
+          "of the skin), which has about 3 of its own",
+          {.minimum = 0, .maximum = 100});
+    t.add("fibres.shrinkage", "1", [](auto& p) -> auto& { return p.fibres.shrinkage; },
+          "shrinkage of the fibres along themselves as a fraction of the flesh's (in the skin: the skin's); "
+          "below 1 they hold the fruit long that way",
+          {.minimum = 0, .maximum = 1});
+}
+
 void add_plastic(Table& t) {
     t.add("plastic.flesh_yield_strain", "1", [](auto& p) -> auto& { return p.plastic.flesh_yield_strain; },
           "plastic set: equivalent elastic strain from which the flesh keeps a deformation for good; 0: it "
@@ -180,6 +200,7 @@ Table make_table() {
     add_physics(t);
     add_moisture(t);
     add_segments(t);
+    add_fibres(t);
     add_plastic(t);
     add_contact(t);
     add_numerics(t);

@@ -51,6 +51,18 @@ struct SegmentParameters {
     double wall_shrinkage = 0.3;
 };
 
+/// Which way fibres run, and where there are any.
+enum class FibreDirection { None, Radial, Meridional, Latitudinal };
+enum class FibreLayer { Flesh, Skin, Both };
+
+struct FibreParameters {
+    FibreDirection direction = FibreDirection::None;
+    FibreLayer layer = FibreLayer::Flesh;
+    double stiffness = 10;
+    double shrinkage = 1;
+    bool on() const { return direction != FibreDirection::None && stiffness > 0; }
+};
+
 struct PlasticParameters {
     double flesh_yield_strain = 0;
     double skin_yield_strain = 0;
@@ -102,6 +114,7 @@ struct DryingParameters {
     MoistureParameters moisture;
     water::ClimateParameters climate;
     SegmentParameters segments;
+    FibreParameters fibres;
     PlasticParameters plastic;
     ContactParameters contact;
     MeshParameters mesh;

@@ -17,8 +17,8 @@ import unittest
 from command_line import BINARY, CommandLine
 
 PRESETS = {
-    "dry": ["banana", "bean", "fig", "jujube", "jujube-plump", "mandarin", "pepper", "plum", "plum-round", "potato",
-            "raisin", "raisin-soaked", "raisin-sun", "sphere", "wolfberry"],
+    "dry": ["banana", "bean", "emblic", "fig", "jujube", "jujube-plump", "mandarin", "pepper", "plum", "plum-round",
+            "potato", "raisin", "raisin-soaked", "raisin-sun", "sphere", "wolfberry"],
     "snap": ["ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17", "fig18", "fig19", "fig2",
              "goldenrain", "green-branch", "log-end", "log-end-pine", "storm"],
 }

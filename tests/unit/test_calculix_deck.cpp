@@ -149,5 +149,17 @@ TEST_F(CalculixDeck, AnisotropicDryingIsRefused) {
     }
 }
 
+TEST_F(CalculixDeck, FibresAreRefused) {
+    m_parameters.fibres.direction = FibreDirection::Radial;
+    try {
+        calculix_deck(m_mesh, m_parameters);
+        FAIL() << "fibres were accepted";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("fibres.direction"));
+    }
+    m_parameters.fibres.stiffness = 0;
+    EXPECT_NO_THROW(calculix_deck(m_mesh, m_parameters));
+}
+
 }  // namespace
 }  // namespace windfall::drying

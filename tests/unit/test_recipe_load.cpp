@@ -275,9 +275,9 @@ std::vector<std::string> presets_of(const std::string& process) {
 
 TEST(Presets, AllLoad) {
     EXPECT_THAT(presets_of("drying"),
-                testing::ElementsAre("banana", "bean", "fig", "jujube", "jujube-plump", "mandarin", "pepper",
-                                     "plum", "plum-round", "potato", "raisin", "raisin-soaked", "raisin-sun",
-                                     "sphere", "wolfberry"));
+                testing::ElementsAre("banana", "bean", "emblic", "fig", "jujube", "jujube-plump", "mandarin",
+                                     "pepper", "plum", "plum-round", "potato", "raisin", "raisin-soaked",
+                                     "raisin-sun", "sphere", "wolfberry"));
     EXPECT_THAT(presets_of("fracture"),
                 testing::ElementsAre("ailanthus", "chinese-juniper", "cypress", "fig15", "fig16", "fig17",
                                      "fig18", "fig19", "fig2", "goldenrain", "green-branch", "log-end",

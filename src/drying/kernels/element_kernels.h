@@ -341,46 +341,10 @@ inline void tangent_block(const TangentData<L>& t, int a, int b, typename LaneTy
 template <int L>
 void assemble(const ElementArrays& e, const double* displacement, const std::int32_t (*pair_entry)[6],
               TangentFactors factors, MatrixArrays matrix, Range quads) {
-    using F = typename LaneTypes<L>::F;
-    static const int kPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     TangentData<L> t;
     for (int quad = quads.begin; quad < quads.end; ++quad) {
         tangent_data<L>(e, displacement, quad, factors.geometric, t);
-        F k[9];
-        for (int c = 0; c < 4; ++c) {
-            F* out =
-                reinterpret_cast<F*>(matrix.diagonal + static_cast<std::int64_t>(e.quads[quad][c]) * 18 * L);
-            tangent_block<L>(t, 4 + c, c, k);
-            for (int i = 0; i < 9; ++i) {
-                k[i][0] = 0;  // the node below the first layer is on the stone
-                out[i] += k[i];
-            }
-            tangent_block<L>(t, 4 + c, 4 + c, k);
-            for (int i = 0; i < 9; ++i) out[9 + i] += k[i];
-            tangent_block<L>(t, c, c, k);
-            for (int i = 0; i < 9; ++i) out[9 + i] += shift_down(k[i]);
-        }
-        for (int pair = 0; pair < 6; ++pair) {
-            int row = kPairs[pair][0];
-            int other = kPairs[pair][1];
-            if (e.quads[quad][row] < e.quads[quad][other]) {
-                const int swap = row;
-                row = other;
-                other = swap;
-            }
-            F* out = reinterpret_cast<F*>(matrix.lower +
-                                          static_cast<std::int64_t>(pair_entry[quad][pair]) * 27 * L);
-            tangent_block<L>(t, 4 + row, other, k);
-            for (int i = 0; i < 9; ++i) {
-                k[i][0] = 0;
-                out[i] += k[i];
-            }
-            tangent_block<L>(t, 4 + row, 4 + other, k);
-            for (int i = 0; i < 9; ++i) out[9 + i] += k[i];
-            tangent_block<L>(t, row, other, k);
-            for (int i = 0; i < 9; ++i) out[9 + i] += shift_down(k[i]);
-            tangent_block<L>(t, row, 4 + other, k);
-            for (int i = 0; i < 9; ++i) out[18 + i] += shift_down(k[i]);
-        }
+        add_blocks<L>(e.quads[quad], pair_entry[quad], matrix,
+                      [&t](int a, int b, LaneFloats<L>* block) { tangent_block<L>(t, a, b, block); });
     }
 }

@@ -22,6 +22,13 @@ struct ElementArrays {
     std::int64_t moduli_stride = 0;  ///< between the moduli of two quads: L, or 0 where all are alike
 };
 
+/// Fibres of the elements, where there are any (see fibres.h).
+struct FibreArrays {
+    const double* relaxed;  ///< [quad][4][L] direction in the fresh fruit over the length free of stress: x,
+                            ///< y, z; Young's modulus times det Fd
+};
+constexpr std::int64_t kFibreEntries = 4;
+
 /// Symmetric block matrix over columns, lower triangle in solver order. A block couples lane k of the row's
 /// column with lanes k - 1, k, k + 1 of the other; entry d * 9 + 3 i + j of a block is component (i, j) for
 /// lane k + d - 1.
@@ -85,6 +92,12 @@ struct KernelTable {
     /// triangle for the corner pairs (0,1) (0,2) (0,3) (1,2) (1,3) (2,3).
     void (*assemble)(const ElementArrays&, const double* displacement, const std::int32_t (*pair_entry)[6],
                      TangentFactors, MatrixArrays, Range quads);
+
+    /// The same two of the fibres in the elements: energy and second derivatives.
+    double (*fibre_energy)(const ElementArrays&, FibreArrays, const double* displacement, double* force,
+                           Range quads);
+    void (*assemble_fibres)(const ElementArrays&, FibreArrays, const double* displacement,
+                            const std::int32_t (*pair_entry)[6], TangentFactors, MatrixArrays, Range quads);
 
     /// y = A x. Ranges in solver order: y of earlier columns must have been set already.
     void (*product)(const MatrixArrays&, const float* x, float* y, Range columns);

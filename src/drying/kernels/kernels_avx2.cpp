@@ -9,7 +9,9 @@ namespace windfall::drying::avx2 {
 // The order is that of dependence.
 // clang-format off
 #include "drying/kernels/lanes.h"
+#include "drying/kernels/add_blocks.h"
 #include "drying/kernels/element_kernels.h"
+#include "drying/kernels/fibre_kernels.h"
 #include "drying/kernels/column_kernels.h"
 #include "drying/kernels/table.h"
 // clang-format on

@@ -19,6 +19,9 @@ struct LaneTypes<16> {
     typedef long long I __attribute__((vector_size(128), may_alias));
 };
 
+template <int L>
+using LaneFloats = typename LaneTypes<L>::F;
+
 // Lane k of the result is lane k - 1 of `a` (shift_up) or k + 1 (shift_down); zero comes in at the end.
 template <class V>
 inline V shift_up(V a) {
