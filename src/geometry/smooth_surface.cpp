@@ -34,14 +34,17 @@ SlowField::SlowField(const std::vector<Vec3>& directions, const std::vector<doub
 }
 
 std::vector<Vec3> SlowField::project(const std::vector<Vec3>& field) const {
+    using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> values(
         field.front().data(), static_cast<Eigen::Index>(field.size()), 3);
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> right =
-        m_basis.transpose() * m_weights.asDiagonal() * values;
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> coefficients = m_normal_equations.solve(right);
+    // Products of whole matrices: Eigen is slow on expressions of them.
+    const Columns weighted = m_weights.asDiagonal() * values;
+    const Columns right = m_basis.transpose() * weighted;
+    const Columns coefficients = m_normal_equations.solve(right);
+    const Columns slow = m_basis * coefficients;
     std::vector<Vec3> result(field.size());
     for (std::size_t v = 0; v < field.size(); ++v)
-        result[v] = (m_basis.row(static_cast<Eigen::Index>(v)) * coefficients).transpose();
+        result[v] = slow.row(static_cast<Eigen::Index>(v)).transpose();
     return result;
 }
 
