@@ -18,7 +18,7 @@ GRACE_S = 60  # from the request to stop to the end of patience
 
 
 def run(command, folder, environment=None, limit_s=None):
-    """Runs a command to its end, or interrupts it after `limit_s` and kills it where it does not heed that.
+    """Runs a command to its end, or ends it after `limit_s` and kills it where it does not heed that.
 
     Returns its exit code, its output (both streams), and a dictionary of wall and processor seconds, peak memory in
     bytes, the moment of its start as files carry it, and whether the limit was reached.
@@ -29,12 +29,13 @@ def run(command, folder, environment=None, limit_s=None):
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output,
                                    stderr=subprocess.STDOUT, env={**os.environ, **(environment or {})})
 
+        # SIGTERM, not SIGINT: what runs in the background of a script ignores the latter.
         def stop(which):  # not process.send_signal, which may take the exit status away from wait4
             limited.append(which)
             os.kill(process.pid, which)
 
         timers = [threading.Timer(seconds, stop, [which]) for seconds, which in
-                  [(limit_s, signal.SIGINT), (limit_s + GRACE_S, signal.SIGKILL)]] if limit_s else []
+                  [(limit_s, signal.SIGTERM), (limit_s + GRACE_S, signal.SIGKILL)]] if limit_s else []
         for timer in timers:
             timer.daemon = True
             timer.start()

@@ -7,7 +7,7 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 
 // Layout: length of the head (8 bytes), the head as CBOR (which keeps doubles to the bit), the displacements,
 // the plastic set.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "drying/slow_motion.h"
 #include "drying/specimen.h"
 
 namespace windfall::drying {
@@ -30,6 +31,18 @@ double norm_of(const AlignedArray<double>& a) {
     double sum = 0;
     for (const double x : a) sum += x * x;
     return std::sqrt(sum);
+}
+
+/// (u - a) M (u - b)
+double mass_product(const AlignedArray<double>& mass, std::size_t layers, const AlignedArray<double>& u,
+                    const AlignedArray<double>& a, const AlignedArray<double>& b) {
+    constexpr std::size_t kColumns = 512;
+    return parallel_sum(mass.size() / layers, kColumns, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t at = begin * 3 * layers; at < end * 3 * layers; ++at)
+            sum += mass[at / (3 * layers) * layers + at % layers] * (u[at] - a[at]) * (u[at] - b[at]);
+        return sum;
+    });
 }
 
 }  // namespace
@@ -97,7 +110,8 @@ double DryingPath::viscosity() const {
     // smaller power was found to cost as little and to change less.
     constexpr double kBaseWaveLength = 0.3754;  // of the base case
     constexpr double kPower = 1.5;
-    const double shortness = std::max(1.0, kBaseWaveLength / expected_wave_length(m_parameters));
+    constexpr double kShortest = 4;  // as far as it was measured: a skin of 0.01
+    const double shortness = std::clamp(kBaseWaveLength / expected_wave_length(m_parameters), 1.0, kShortest);
     const double late = solver.late_viscosity * std::pow(shortness, kPower);
     const double progress = (m_state.course.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
     return std::lerp(solver.viscosity, late, std::clamp(progress, 0.0, 1.0));
@@ -123,24 +137,28 @@ AlignedArray<double> DryingPath::predict(double step) const {
 }
 
 AlignedArray<double> DryingPath::drift(double step) const {
+    constexpr double kMostGrowth = 2;  // a step that was cut for a frame says little about a long one
+    // Where wrinkles are as long as the slow functions, the latter would leave them undamped.
+    constexpr double kLongestWave = 1;
     const auto& u = m_state.displacements;
     AlignedArray<double> result = u[0];
-    if (m_state.past_steps.empty()) return result;
-    const double factor = step / m_state.past_steps[0];
-    const std::vector<std::int32_t>& vertex = m_multigrid->order().vertex_of_solver;
-    const auto layers = static_cast<std::size_t>(m_mesh.layers);
-    parallel_for_each(layers, [&](std::size_t k) {
-        std::vector<Vec3> change(m_mesh.columns());
-        const auto index = [&](std::size_t c, std::size_t i) { return (3 * c + i) * layers + k; };
-        for (std::size_t c = 0; c < change.size(); ++c)
-            for (std::size_t i = 0; i < 3; ++i)
-                change[vertex[c]][static_cast<int>(i)] = u[0][index(c, i)] - u[1][index(c, i)];
-        const std::vector<Vec3> slow = m_slow->project(change);
-        for (std::size_t c = 0; c < change.size(); ++c)
-            for (std::size_t i = 0; i < 3; ++i)
-                result[index(c, i)] += factor * slow[vertex[c]][static_cast<int>(i)];
-    });
+    if (m_state.past_steps.empty() || expected_wave_length(m_parameters) > kLongestWave) return result;
+    const double factor = std::min(kMostGrowth, step / m_state.past_steps[0]);
+    const AlignedArray<double> motion =
+        slow_motion(*m_slow, m_multigrid->order(), static_cast<std::size_t>(m_mesh.layers), u[1], u[0]);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += factor * motion[i];
     return result;
+}
+
+bool DryingPath::goes_back(const CourseIncrement& increment) const {
+    const double change = increment.to.shrinkage - m_state.course.shrinkage;
+    double later = m_state.course.shrinkage;
+    for (auto record = m_state.history.rbegin(); record != m_state.history.rend(); ++record) {
+        const double last_change = later - record->shrinkage;
+        if (last_change != 0) return last_change * change < 0;
+        later = record->shrinkage;
+    }
+    return later * change < 0;
 }
 
 bool DryingPath::attempt(double target, const RunContext& context) {
@@ -159,7 +177,7 @@ bool DryingPath::attempt(double target, const RunContext& context) {
         return true;
     }
     const AlignedArray<double>& start = m_state.displacements.front();
-    const AlignedArray<double> drifted = drift(step);
+    const AlignedArray<double> drifted = goes_back(increment) ? start : drift(step);
     const Damping damping{&drifted, viscosity() * m_parameters.drying.shrinkage / step};
     const DryingField drying = walled(increment.field);
     m_elasticity->set_drying(with_set(drying, m_state.set, m_mesh.layers), drying);
@@ -184,6 +202,11 @@ bool DryingPath::attempt(double target, const RunContext& context) {
         ++record.failures;
         return false;
     }
+    // The viscous force works over the way.
+    record.viscous_work =
+        (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
+        damping.factor * mass_product(m_elasticity->mass(), static_cast<std::size_t>(m_mesh.layers),
+                                      displacement, drifted, start);
     take(std::move(increment), std::move(displacement), result);
     return true;
 }
@@ -195,9 +218,6 @@ void DryingPath::take(CourseIncrement increment, AlignedArray<double> displaceme
     record.shrinkage = increment.to.shrinkage;
     record.elastic_energy = result.elastic_energy;
     record.smallest_volume_ratio = result.smallest_volume_ratio;
-    // The viscous force c M du/dt works over du: twice the damping's part of the potential.
-    record.viscous_work = (m_state.history.empty() ? 0 : m_state.history.back().viscous_work) +
-                          2 * (result.potential - result.elastic_energy - result.contact.energy);
     record.contacts = result.contact.pairs;
     set_step_after(increment, result);
     m_state.course = std::move(increment.to);

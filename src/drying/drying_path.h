@@ -27,7 +27,7 @@ struct StepRecord {
     double shrinkage = 0;       ///< of the flesh as a whole
     double depth_rms = 0;       ///< root mean square of the skin's depth, in r_1
     double elastic_energy = 0;  ///< in C0 of the flesh times r_1^3
-    double viscous_work = 0;    ///< done against the stabilisation since the start
+    double viscous_work = 0;    ///< done against the viscous force since the start
     double smallest_volume_ratio = 1;
     int newton_steps = 0;  ///< with those of failed attempts before
     int linear_iterations = 0;
@@ -90,7 +90,8 @@ class DryingPath {
     double reference_force() const { return m_reference_force; }
 
     /// The displacement now, carried on by the slow part of the last increment's motion for an increment of
-    /// `step`: the viscous force pulls to it, so that what the whole fruit does is not damped.
+    /// `step`: the viscous force pulls to it, so that what the whole fruit does is not damped. Without a last
+    /// increment, or where wrinkles are as long as the fruit, the displacement itself.
     AlignedArray<double> drift(double step) const;
 
     /// Nodes now: [column * layers + k], in the brick's order.
@@ -107,6 +108,8 @@ class DryingPath {
     void take(CourseIncrement increment, AlignedArray<double> displacement, const NewtonResult& result);
     void set_step_after(const CourseIncrement& increment, const NewtonResult& result);
     AlignedArray<double> predict(double step) const;
+    /// Whether the flesh swells where it last shrank, or the other way round.
+    bool goes_back(const CourseIncrement& increment) const;
     double viscosity() const;
     double root_mean_square_depth() const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 
 #include "drying/vector_loops.h"
 
@@ -122,6 +123,7 @@ Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const Kern
             geometry::make_brick_surface(geometry::coarser(m_levels.back()->brick.cells)), layers, true));
         m_levels[m_levels.size() - 2]->connect(*m_levels.back());
     }
+    if (m_levels.size() < 2) throw std::logic_error("multigrid needs cells that can be halved");
     m_inverse = AlignedArray<float>(m_levels.front()->columns() * 9 * layers * layers);
 }
 
@@ -215,9 +217,10 @@ void Multigrid::smooth(Level& level, const float* b, float* x) {
 
 /// The coarsest level is solved nearly exactly: volume change over the whole fruit is seen there only, and
 /// three plain sweeps instead cost the outer iteration up to twice as many steps. Large levels take two
-/// iterations (a K-cycle: Notay and Vassilevski 2008): what they interpolate changes volume, so that a plain
-/// cycle's corrections get worse with every level. The cycle is thereby not quite linear, which the outer
-/// iteration allows for.
+/// iterations (a K-cycle: Notay and Vassilevski 2008): near a bifurcation wrinkles move almost freely, and
+/// one cycle of the coarse levels that they live on corrects them by far too little (two cycles without
+/// conjugate gradients are no better). The cycle is thereby not quite linear, which the outer iteration
+/// allows for.
 void Multigrid::solve(std::size_t l, const float* b, float* x) {
     Level& level = *m_levels[l];
     if (l + 1 == m_levels.size())

@@ -17,7 +17,8 @@ class Multigrid {
     /// instead of one cycle. On smaller ones they save less than they cost (docs/performance.md).
     static constexpr std::size_t kKrylovColumns = 8000;
 
-    /// `layers`: 8 or 16. Allocates everything; the finest matrix is zero.
+    /// `layers`: 8 or 16. Allocates everything; the finest matrix is zero. The cells
+    /// can be halved at least once.
     Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table,
               std::size_t krylov_columns = kKrylovColumns);
     ~Multigrid();

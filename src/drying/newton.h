@@ -1,8 +1,9 @@
 #pragma once
 // One increment of drying: the minimum of the incremental potential
-//   energy(u) + c / (2 dt) |u - u_old|^2_M,
-// whose stationarity is equilibrium with the paper's viscous force (eq. 12). Minimised by Newton's method in
-// a trust region, so that a bifurcation is passed downhill and never along an indefinite tangent.
+//   energy(u) + c / (2 dt) |u - u_from|^2_M,
+// whose stationarity is equilibrium with the paper's viscous force (eq. 12) where u_from is the displacement
+// before, and with one that leaves slow motion alone where it is that and a drift. Minimised by Newton's
+// method in a trust region, so that a bifurcation is passed downhill and never along an indefinite tangent.
 #include <vector>
 
 #include "core/run_context.h"
@@ -25,7 +26,7 @@ struct NewtonSettings {
 
 /// The viscous term of the potential.
 struct Damping {
-    const AlignedArray<double>* from = nullptr;  ///< displacement at the start of the increment
+    const AlignedArray<double>* from = nullptr;  ///< displacement that the viscous force pulls to
     double factor = 0;                           ///< c / dt
 };
 

@@ -184,7 +184,7 @@ void add_numerics(Table& t) {
           "over r_1^2",
           {.minimum = 0, .maximum = 1000});
     t.add("solver.late_viscosity", "1", [](auto& p) -> auto& { return p.solver.late_viscosity; },
-          "the same once wrinkles of the base case's length stand; shorter ones take more",
+          "the same once wrinkles stand; times (0.375 / expected wave length)^1.5, from 1 to 8",
           {.minimum = 0, .maximum = 1000});
     t.add("solver.newton_tolerance", "1", [](auto& p) -> auto& { return p.solver.newton_tolerance; },
           "out-of-balance force at which an increment is accepted, over the reference force",

@@ -87,26 +87,27 @@ TEST(MoisturePath, InfiniteDiffusivityIsTheGivenShrinkage) {
     geometry::LayeredMesh mesh = make_mesh(p, *shape);
     add_imperfection(mesh, p, {});
     DryingPath given(std::move(mesh), p);
-    double apart_while_smooth = 0;
+    double apart = 0;
     hours.advance(30, {}, [&] {
+        // One increment to there, as by the hour: past the bifurcation runs whose increments end at other
+        // places go to patterns that differ by percents.
+        PathState state = given.state();
+        state.next_step = 1;
+        given.set_state(std::move(state));
         given.advance(hours.shrinkage(), {});
-        if (hours.state().history.back().depth_rms > 0.02 * p.fruit.skin_thickness) return;
         const std::vector<Vec3> a = hours.positions();
         const std::vector<Vec3> b = given.positions();
-        for (std::size_t i = 0; i < a.size(); ++i)
-            apart_while_smooth = std::max(apart_while_smooth, (a[i] - b[i]).norm());
+        for (std::size_t i = 0; i < a.size(); ++i) apart = std::max(apart, (a[i] - b[i]).norm());
     });
     EXPECT_GT(hours.shrinkage(), 0.15);
     ASSERT_GT(hours.onset(), 0) << "the test must pass the bifurcation to mean anything";
     const double depth = hours.state().history.back().depth_rms;
     const double given_depth = given.state().history.back().depth_rms;
-    std::printf("apart while smooth %.2e r_1; onset %.5f, given %.5f; depth %.5f, given %.5f t_e\n",
-                apart_while_smooth, hours.onset(), given.onset(), depth / p.fruit.skin_thickness,
-                given_depth / p.fruit.skin_thickness);
-    EXPECT_LT(apart_while_smooth, 1e-3 * p.fruit.skin_thickness);
-    // Past the bifurcation the two differ as runs do whose increments end at other places.
-    EXPECT_NEAR(hours.onset() / given.onset(), 1, 0.01);
-    EXPECT_NEAR(depth / given_depth, 1, 0.03);
+    std::printf("apart %.2e r_1; onset %.5f, given %.5f; depth %.5f, given %.5f t_e\n", apart, hours.onset(),
+                given.onset(), depth / p.fruit.skin_thickness, given_depth / p.fruit.skin_thickness);
+    EXPECT_LT(apart, 1e-3 * p.fruit.skin_thickness);
+    EXPECT_NEAR(hours.onset() / given.onset(), 1, 1e-4);
+    EXPECT_NEAR(depth / given_depth, 1, 1e-3);
 }
 
 /// Keeps the frames.
