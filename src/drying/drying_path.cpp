@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "drying/slow_motion.h"
@@ -153,10 +154,10 @@ AlignedArray<double> DryingPath::drift(double step) const {
 bool DryingPath::goes_back(const CourseIncrement& increment) const {
     const double change = increment.to.shrinkage - m_state.course.shrinkage;
     double later = m_state.course.shrinkage;
-    for (auto record = m_state.history.rbegin(); record != m_state.history.rend(); ++record) {
-        const double last_change = later - record->shrinkage;
+    for (const StepRecord& record : std::views::reverse(m_state.history)) {
+        const double last_change = later - record.shrinkage;
         if (last_change != 0) return last_change * change < 0;
-        later = record->shrinkage;
+        later = record.shrinkage;
     }
     return later * change < 0;
 }

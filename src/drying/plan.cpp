@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "drying/artist_skin.h"
+#include "drying/drying_course.h"
 #include "drying/drying_process.h"
 #include "drying/specimen.h"
 
