@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "drying/slow_motion.h"
@@ -154,10 +153,10 @@ AlignedArray<double> DryingPath::drift(double step) const {
 bool DryingPath::goes_back(const CourseIncrement& increment) const {
     const double change = increment.to.shrinkage - m_state.course.shrinkage;
     double later = m_state.course.shrinkage;
-    for (const StepRecord& record : std::views::reverse(m_state.history)) {
-        const double last_change = later - record.shrinkage;
-        if (last_change != 0) return last_change * change < 0;
-        later = record.shrinkage;
+    for (std::size_t i = m_state.history.size(); i-- > 0;) {
+        const double before = m_state.history[i].shrinkage;
+        if (later != before) return (later - before) * change < 0;
+        later = before;
     }
     return later * change < 0;
 }
