@@ -107,7 +107,8 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
             result.status = LinearStatus::NegativeCurvature;
             return result;
         }
-        result.relative_residual = std::sqrt(advance(static_cast<float>(alpha), p, q, px, r, size)) / norm_b;
+        result.relative_residual =
+            std::sqrt(step_along(static_cast<float>(alpha), p, q, px, r, size)) / norm_b;
         if (result.relative_residual < tolerance) return result;
     }
     result.status = LinearStatus::IterationLimit;

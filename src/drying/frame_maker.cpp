@@ -46,13 +46,11 @@ std::vector<double> to_vertices(const geometry::BrickSurface& brick, const std::
     return sums;
 }
 
-SolidSums sum_elements(const DryingPath& path, const DryingParameters& parameters,
-                       const std::vector<Vec3>& nodes) {
+SolidSums sum_elements(const DryingPath& path, const std::vector<Vec3>& nodes) {
     constexpr std::size_t kBlock = 256;  // quads
     const LayeredMesh& mesh = path.mesh();
     const DryingField drying = path.stress_free();
-    const LayerModuli moduli = layer_moduli(mesh.flesh_layers, mesh.layers, parameters.material.gamma,
-                                            parameters.material.bulk_ratio);
+    const LayerModuli& moduli = path.moduli();
     const std::vector<double> stiffening = path.flesh_stiffening();
     LayeredMesh now = mesh;
     now.nodes = nodes;
@@ -102,7 +100,7 @@ take::TakeMesh skin_mesh(const LayeredMesh& mesh) {
 take::Frame make_frame(const DryingPath& path, const DryingParameters& parameters, int index) {
     const LayeredMesh& mesh = path.mesh();
     const std::vector<Vec3> nodes = path.positions();
-    const SolidSums sums = sum_elements(path, parameters, nodes);
+    const SolidSums sums = sum_elements(path, nodes);
     const std::vector<Vec3> rest = mesh.level_positions(mesh.layers);
     std::vector<Vec3> skin(mesh.columns());
     for (std::size_t c = 0; c < skin.size(); ++c) skin[c] = nodes[(c + 1) * mesh.layers - 1];

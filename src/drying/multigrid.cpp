@@ -265,7 +265,7 @@ void Multigrid::krylov(Level& level, const float* b, float* x, KrylovSettings se
             if (k == 0) std::copy(z, z + size, x);
             return;
         }
-        advance(static_cast<float>(rz / curvature), p, q, x, r, size);
+        step_along(static_cast<float>(rz / curvature), p, q, x, r, size);
     }
 }
 

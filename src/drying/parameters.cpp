@@ -106,8 +106,7 @@ void add_fibres(Table& t) {
         "fibres.direction", [](auto& p) -> auto& { return p.fibres.direction; },
         {"none", "radial", "meridional", "latitudinal"},
         "which way fibres run: across the layers, along the meridians (from pole to pole), or along the "
-        "circles "
-        "of latitude; none: there are none");
+        "circles of latitude; none: there are none");
     t.add_choice(
         "fibres.layer", [](auto& p) -> auto& { return p.fibres.layer; }, {"flesh", "skin", "both"},
         "where they run");

@@ -74,7 +74,9 @@ LaidBrick refined(const CurvedSurface& surface, const LaidBrick& coarse, const B
 }
 
 LaidBrick lay_brick(const CurvedSurface& surface, const SphereMap& map, const Lattice& cells) {
-    constexpr std::array<int, 3> kSweeps = {40, 60, 50};  // coarsest first, where each has three barriers
+    // Coarsest first, where each has three barriers. There a long brick has some 60 cells from end to end,
+    // and what is uneven from one to the other takes about the square of a third of that to go.
+    constexpr std::array<int, 3> kSweeps = {300, 60, 50};
     std::vector<Lattice> levels{cells};
     while (levels.size() < kSweeps.size() && can_coarsen(levels.back()) &&
            *std::min_element(levels.back().begin(), levels.back().end()) >= 2 * kFewestCoarseCells)

@@ -5,22 +5,12 @@
 
 #include <Eigen/Geometry>
 
-#include "core/random.h"
+#include "support/plain_elements.h"
 
 namespace windfall::drying {
 namespace {
 
-/// A hexahedron that is no parallelepiped, and a deformed one.
-HexNodes bent_hexahedron(double amplitude, std::uint64_t seed) {
-    const double signs[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    HexNodes nodes;
-    for (int a = 0; a < 8; ++a) {
-        const auto u = random_uniform4(seed, RandomPurpose::LanczosStart, static_cast<std::uint64_t>(a));
-        for (int i = 0; i < 3; ++i) nodes[a][i] = signs[a][i] + amplitude * (u[i] - 0.5);
-    }
-    return nodes;
-}
+using test::bent_hexahedron;
 
 HexMaterial dried_material() {
     HexMaterial material{2, 100, Eigen::Matrix3d::Identity()};

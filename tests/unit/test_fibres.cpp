@@ -1,4 +1,4 @@
-// Fibres: the plain element against differences and closed forms, and the kernels against the plain element.
+// Fibres: the plain element against differences and closed forms.
 #include "drying/fibres.h"
 
 #include <gtest/gtest.h>
@@ -6,12 +6,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
-#include <cstring>
 
-#include "core/parallel.h"
-#include "core/random.h"
 #include "drying/drying_field.h"
-#include "drying/element.h"
+#include "support/plain_elements.h"
 #include "support/small_body.h"
 
 namespace windfall::drying {
@@ -19,18 +16,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// A unit cube whose corners are moved by up to half of `amplitude`.
-HexNodes bent_cube(double amplitude, std::uint64_t seed) {
-    const double corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    HexNodes nodes;
-    for (int a = 0; a < 8; ++a) {
-        const auto u = random_uniform4(seed, RandomPurpose::LanczosStart, static_cast<std::uint64_t>(a));
-        nodes[a] = Vector3d(corners[a % 4][0], corners[a % 4][1], a < 4 ? 0 : 1);
-        for (int i = 0; i < 3; ++i) nodes[a][i] += amplitude * (u[i] - 0.5);
-    }
-    return nodes;
-}
+using test::bent_hexahedron;
 
 HexNodes moved(HexNodes nodes, const Matrix3d& by) {
     for (Vector3d& node : nodes) node = by * node;
@@ -44,8 +30,8 @@ HexMaterial fibrous_material() {
 }
 
 TEST(Fibres, DerivativesAgreeWithFiniteDifferences) {
-    const HexNodes rest = bent_cube(0.3, 1);
-    const HexNodes now = bent_cube(0.4, 2);
+    const HexNodes rest = bent_hexahedron(0.3, 1);
+    const HexNodes now = bent_hexahedron(0.4, 2);
     const HexMaterial material = fibrous_material();
     HexMaterial bare = material;
     bare.fibre_modulus = 0;
@@ -69,8 +55,8 @@ TEST(Fibres, DerivativesAgreeWithFiniteDifferences) {
 }
 
 TEST(Fibres, AnotherFrameIsTheSame) {
-    const HexNodes rest = bent_cube(0.3, 3);
-    const HexNodes now = bent_cube(0.4, 4);
+    const HexNodes rest = bent_hexahedron(0.3, 3);
+    const HexNodes now = bent_hexahedron(0.4, 4);
     const Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3d(1, 2, -2).normalized()).toRotationMatrix();
     const HexResponse before = hexahedron_response(rest, now, fibrous_material());
     const HexResponse after = hexahedron_response(rest, moved(now, turn), fibrous_material());
@@ -96,10 +82,10 @@ struct Pull {
         return {kShear, kBulk, theta * Matrix3d::Identity(), Vector3d::UnitX() / relaxed, modulus};
     }
     HexNodes now() const {
-        return moved(bent_cube(0, 0), Vector3d(along, across, across).asDiagonal().toDenseMatrix());
+        return moved(bent_hexahedron(0, 0), Vector3d(along, across, across).asDiagonal().toDenseMatrix());
     }
     Vector3d force_on_faces(double modulus = kModulus) const {
-        const HexNodes rest = bent_cube(0, 0);
+        const HexNodes rest = bent_hexahedron(0, 0);
         const HexResponse response = hexahedron_response(rest, now(), material(modulus));
         Vector3d sum = Vector3d::Zero();
         for (int a = 0; a < 8; ++a)
@@ -126,7 +112,7 @@ TEST(Fibres, BlockIsPulledAlongAndAcross) {
         EXPECT_NEAR(force.y(), bare.y(), 1e-12);
         EXPECT_GT(std::abs(force.x() - bare.x()), 0.1);
         // Force over the area that it stands on is the Cauchy stress.
-        const HexState state = hexahedron_state(bent_cube(0, 0), pull.now(), pull.material());
+        const HexState state = hexahedron_state(bent_hexahedron(0, 0), pull.now(), pull.material());
         EXPECT_NEAR(state.stress(0, 0) * pull.across * pull.across, force.x(), 1e-11);
         EXPECT_NEAR(state.stress(1, 1) * pull.across * pull.along, force.y(), 1e-11);
     }

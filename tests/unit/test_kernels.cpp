@@ -4,22 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 
-#include "drying/element.h"
+#include "support/plain_elements.h"
 #include "support/small_body.h"
 
 namespace windfall::drying {
 namespace {
 
-struct Case {
-    const char* name;
-    int layers;
-    const KernelTable* table;
-};
-
-class Kernels : public testing::TestWithParam<Case> {
+class Kernels : public testing::TestWithParam<test::KernelBuild> {
   protected:
     Kernels()
         : m_mesh(test::small_sphere(4, GetParam().layers)),
@@ -30,47 +23,13 @@ class Kernels : public testing::TestWithParam<Case> {
         m_elasticity.set_drying(test::uneven_drying);
     }
 
-    std::size_t unknown(std::int32_t vertex, int level, int axis) const {
-        return (3 * static_cast<std::size_t>(m_multigrid.order().solver_of_vertex[vertex]) + axis) *
-                   m_mesh.layers +
-               (level - 1);
+    HexMaterial material(std::size_t quad, int layer) const {
+        return {m_moduli.shear[layer], m_moduli.bulk[layer], test::uneven_drying(quad, layer)};
     }
 
-    /// Calls body(response, unknowns of the element's 24 components; -1 on the stone).
-    template <class Body>
-    void for_elements(Body body) const {
-        for (std::size_t q = 0; q < m_mesh.brick.quads.size(); ++q)
-            for (int k = 0; k < m_mesh.layers; ++k) {
-                const HexNodes rest = element_nodes(m_mesh, q, k);
-                HexNodes now = rest;
-                std::array<std::ptrdiff_t, 24> unknowns{};
-                for (int a = 0; a < 8; ++a)
-                    for (int i = 0; i < 3; ++i) {
-                        const int level = k + (a < 4 ? 0 : 1);
-                        if (level == 0) {
-                            unknowns[3 * a + i] = -1;
-                            continue;
-                        }
-                        const std::size_t u = unknown(m_mesh.brick.quads[q][a % 4], level, i);
-                        unknowns[3 * a + i] = static_cast<std::ptrdiff_t>(u);
-                        now[a][i] += m_displacement[u];
-                    }
-                body(hexahedron_response(rest, now,
-                                         {m_moduli.shear[k], m_moduli.bulk[k], test::uneven_drying(q, k)}),
-                     unknowns);
-            }
-    }
-
-    Eigen::MatrixXd dense_hessian() const {
-        const auto size = static_cast<Eigen::Index>(m_elasticity.size());
-        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-        for_elements([&](const HexResponse& r, const auto& unknowns) {
-            for (int i = 0; i < 24; ++i)
-                for (int j = 0; j < 24; ++j)
-                    if (unknowns[i] >= 0 && unknowns[j] >= 0)
-                        matrix(unknowns[i], unknowns[j]) += r.hessian(i, j);
-        });
-        return matrix;
+    test::BodyResponse plain() const {
+        return test::plain_response(m_mesh, m_multigrid.order(), m_displacement,
+                                    [this](std::size_t quad, int layer) { return material(quad, layer); });
     }
 
     geometry::LayeredMesh m_mesh;
@@ -81,39 +40,13 @@ class Kernels : public testing::TestWithParam<Case> {
 };
 
 TEST_P(Kernels, EnergyAndForceAgreeWithThePlainElement) {
-    AlignedArray<double> force(m_elasticity.size());
-    const ElasticEnergy result = m_elasticity.energy(m_displacement, &force);
-    ASSERT_TRUE(result.valid());
-    double energy = 0;
-    std::vector<double> expected(m_elasticity.size(), 0.0);
-    double largest = 0;
-    for_elements([&](const HexResponse& r, const auto& unknowns) {
-        energy += r.energy;
-        for (int i = 0; i < 24; ++i)
-            if (unknowns[i] >= 0) expected[unknowns[i]] += r.gradient[i];
-    });
-    for (const double f : expected) largest = std::max(largest, std::abs(f));
-    EXPECT_GT(energy, 0.01);
-    EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
-    for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(force[i], expected[i], 1e-12 * largest);
-    EXPECT_EQ(m_elasticity.energy(m_displacement, nullptr).energy, result.energy);
+    const test::BodyResponse expected = plain();
+    EXPECT_GT(expected.energy, 0.01);
+    test::expect_energy_and_force(m_elasticity, m_displacement, expected);
 }
 
 TEST_P(Kernels, TangentAgreesWithThePlainElement) {
-    m_elasticity.assemble(m_displacement, 1, 0);
-    const Eigen::MatrixXd expected = dense_hessian();
-    const double scale = expected.cwiseAbs().maxCoeff();
-    AlignedArray<float> x(m_elasticity.size());
-    AlignedArray<float> y(m_elasticity.size());
-    for (std::size_t column = 0; column < x.size(); column += 7) {
-        x.set_zero();
-        x[column] = 1;
-        m_multigrid.product(x.data(), y.data());
-        for (std::size_t row = 0; row < y.size(); ++row)
-            ASSERT_NEAR(y[row], expected(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)),
-                        3e-6 * scale)
-                << "row " << row << " column " << column;
-    }
+    test::expect_tangent(m_elasticity, m_displacement, plain());
 }
 
 TEST_P(Kernels, MassIsAddedToTheDiagonalOnly) {
@@ -159,16 +92,7 @@ TEST_P(Kernels, LogarithmIsAccurateFarFromOne) {
     }
 }
 
-std::vector<Case> cases() {
-    std::vector<Case> list = {{"avx2_8", 8, &kernels_avx2(8)}, {"avx2_16", 16, &kernels_avx2(16)}};
-    // The same tables again where the machine has no AVX-512.
-    list.push_back({"best_8", 8, &kernels(8)});
-    list.push_back({"best_16", 16, &kernels(16)});
-    return list;
-}
-
-INSTANTIATE_TEST_SUITE_P(Builds, Kernels, testing::ValuesIn(cases()),
-                         [](const auto& test_case) { return std::string(test_case.param.name); });
+INSTANTIATE_TEST_SUITE_P(Builds, Kernels, testing::ValuesIn(test::kernel_builds()), test::name_of);
 
 }  // namespace
 }  // namespace windfall::drying

@@ -7,8 +7,11 @@
 #include <numbers>
 
 #include "drying/drying_process.h"
+#include "drying/specimen.h"
 #include "geometry/surface_check_crossings.h"
 #include "geometry/surface_layers.h"
+#include "recipe/fruit_file.h"
+#include "recipe/recipe.h"
 #include "support/test_surfaces.h"
 
 namespace windfall::geometry {
@@ -85,6 +88,16 @@ class LastFrame final : public take::FrameSink {
     take::TakeMesh mesh;
     take::Frame frame;
 };
+
+TEST(AnyFruitPresets, HaveEdgesWithinAFactorOfThree) {
+    for (const char* name : {"potato", "pepper", "fig", "bean", "banana"})
+        for (const char* cells : {"mesh.n=24", "mesh.n=40"}) {
+            const DryingParameters p = recipe::load(name, {cells}).drying;
+            const geometry::LayeredMesh mesh = make_mesh(p, *recipe::read_fruit(p));
+            const auto edges = geometry::edge_statistics(mesh.level_positions(mesh.layers), mesh.brick.quads);
+            EXPECT_LT(edges.largest_over_mean, 3 * edges.smallest_over_mean) << name << ", " << cells;
+        }
+}
 
 class AnyFruitDried : public testing::TestWithParam<int> {};
 
