@@ -108,11 +108,13 @@ TEST(Plan, CoarseMeshesAreWarnedAboutWithTheNumberToSet) {
     EXPECT_NE(coarse.warnings.front().find("mesh.n = 48"), std::string::npos) << coarse.warnings.front();
 }
 
-TEST(Plan, ThinSkinsGetMoreLayers) {
+TEST(Plan, ThinSkinsOnThickFleshGetMoreLayers) {
     DryingParameters p;
     p.fruit.skin_thickness = 0.01;
-    EXPECT_EQ(plan(p).layers, 16);
+    EXPECT_EQ(plan(p).layers, 8);
     EXPECT_GE(plan(p).n, 184);
+    p.fruit.stone_r1 = p.fruit.stone_r2 = 0.2;
+    EXPECT_EQ(plan(p).layers, 16);
 }
 
 TEST(DryingField, IsotropicIsExactlyAMultipleOfTheIdentity) {
