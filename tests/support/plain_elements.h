@@ -40,23 +40,18 @@ inline std::vector<KernelBuild> kernel_builds() {
 
 inline std::string name_of(const testing::TestParamInfo<KernelBuild>& info) { return info.param.name; }
 
-/// Energy of a body and its derivatives with respect to the unknowns, in the order of the solver.
-struct BodyResponse {
-    double energy = 0;
-    Eigen::VectorXd gradient;
-    Eigen::MatrixXd hessian;
-};
+/// Unknowns of an element's 24 components in the order of the solver; -1 on the stone.
+using ElementUnknowns = std::array<Eigen::Index, 24>;
 
-/// Of the displacement `u`; material(quad, layer) is that of an element.
-template <class Material>
-BodyResponse plain_response(const geometry::LayeredMesh& mesh, const drying::ColumnOrder& order,
-                            const AlignedArray<double>& u, const Material& material) {
-    const auto size = static_cast<Eigen::Index>(u.size());
-    BodyResponse sums{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
-    const auto add = [&](std::size_t q, int k) {
+/// Calls visit(response, unknowns) for every element at the displacement `u`; material(quad, layer) is that
+/// of an element.
+template <class Material, class Visit>
+void visit_plain_elements(const geometry::LayeredMesh& mesh, const drying::ColumnOrder& order,
+                          const AlignedArray<double>& u, const Material& material, const Visit& visit) {
+    const auto visit_one = [&](std::size_t q, int k) {
         const drying::HexNodes rest = drying::element_nodes(mesh, q, k);
         drying::HexNodes now = rest;
-        std::array<Eigen::Index, 24> unknowns{};  // -1 on the stone
+        ElementUnknowns unknowns{};
         for (std::size_t a = 0; a < 8; ++a) {
             const auto column = static_cast<std::size_t>(order.solver_of_vertex[mesh.brick.quads[q][a % 4]]);
             const int level = k + (a < 4 ? 0 : 1);
@@ -67,7 +62,25 @@ BodyResponse plain_response(const geometry::LayeredMesh& mesh, const drying::Col
                 if (level > 0) now[a][static_cast<int>(i)] += u[static_cast<std::size_t>(unknown)];
             }
         }
-        const drying::HexResponse response = drying::hexahedron_response(rest, now, material(q, k));
+        visit(drying::hexahedron_response(rest, now, material(q, k)), unknowns);
+    };
+    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q)
+        for (int k = 0; k < mesh.layers; ++k) visit_one(q, k);
+}
+
+/// Energy of a body and its derivatives with respect to the unknowns.
+struct BodyResponse {
+    double energy = 0;
+    Eigen::VectorXd gradient;
+    Eigen::MatrixXd hessian;
+};
+
+template <class Material>
+BodyResponse plain_response(const geometry::LayeredMesh& mesh, const drying::ColumnOrder& order,
+                            const AlignedArray<double>& u, const Material& material) {
+    const auto size = static_cast<Eigen::Index>(u.size());
+    BodyResponse sums{0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
+    const auto add = [&](const drying::HexResponse& response, const ElementUnknowns& unknowns) {
         sums.energy += response.energy;
         for (int i = 0; i < 24; ++i) {
             if (unknowns[i] < 0) continue;
@@ -76,8 +89,7 @@ BodyResponse plain_response(const geometry::LayeredMesh& mesh, const drying::Col
                 if (unknowns[j] >= 0) sums.hessian(unknowns[i], unknowns[j]) += response.hessian(i, j);
         }
     };
-    for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q)
-        for (int k = 0; k < mesh.layers; ++k) add(q, k);
+    visit_plain_elements(mesh, order, u, material, add);
     return sums;
 }
 
