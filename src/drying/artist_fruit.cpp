@@ -13,6 +13,7 @@
 #include "geometry/layered_mesh.h"
 #include "geometry/medial_radius.h"
 #include "geometry/stone_lines.h"
+#include "geometry/uv_raster.h"
 
 namespace windfall::drying {
 
@@ -72,6 +73,35 @@ ArtistFruit::ArtistFruit(const ArtistMeshes& meshes, const DryingParameters& par
 std::vector<Vec3> ArtistFruit::vertices() const {
     std::vector<Vec3> result = m_mesh.positions;
     for (Vec3& p : result) p /= m_r1;
+    return result;
+}
+
+void require_painted(const SurfaceMesh& mesh) {
+    if (mesh.corner_uvs.empty())
+        throw InputError(
+            "moisture.map lies over the texture coordinates of fruit.mesh, which has none: unwrap the mesh, "
+            "or "
+            "set fruit.uvs = \"atlas\" and paint over the atlas of the take");
+}
+
+std::vector<geometry::Vec2> ArtistFruit::uvs_under(const geometry::LayeredMesh& mesh) const {
+    require_painted(m_mesh);
+    const std::vector<Vec3> skin = mesh.level_positions(mesh.layers);
+    std::vector<geometry::Vec2> result;
+    result.reserve(mesh.brick.quads.size());
+    for (const geometry::Quad& quad : mesh.brick.quads) {
+        Vec3 middle = Vec3::Zero(), outward = Vec3::Zero();
+        for (const std::int32_t v : quad) {
+            middle += m_r1 / 4 * skin[static_cast<std::size_t>(v)];
+            outward += mesh.outward[static_cast<std::size_t>(v)];
+        }
+        geometry::SurfacePlace place = m_surface.nearest(middle, outward).place;
+        if (place.triangle < 0) place = m_surface.nearest(middle).place;
+        const auto uvs =
+            geometry::uvs_of(m_mesh, m_surface.triangles().origin[static_cast<std::size_t>(place.triangle)]);
+        result.emplace_back(place.weights[0] * uvs[0] + place.weights[1] * uvs[1] +
+                            place.weights[2] * uvs[2]);
+    }
     return result;
 }
 

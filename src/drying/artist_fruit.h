@@ -6,6 +6,7 @@
 
 #include "drying/parameters.h"
 #include "geometry/curved_surface.h"
+#include "geometry/layered_mesh.h"
 #include "geometry/sphere_map.h"
 
 namespace windfall::drying {
@@ -39,6 +40,10 @@ class ArtistFruit {
     /// The mesh's vertices, in r_1.
     std::vector<geometry::Vec3> vertices() const;
 
+    /// The mesh's texture coordinates at the middles of the quads of a skin laid on it. Throws InputError
+    /// where it has none.
+    std::vector<geometry::Vec2> uvs_under(const geometry::LayeredMesh& mesh) const;
+
   private:
     geometry::SurfaceMesh m_mesh;
     geometry::SphereMap m_map;
@@ -47,6 +52,9 @@ class ArtistFruit {
     double m_r1 = 1;
     double m_elongation = 1;
 };
+
+/// Throws InputError where an artist's mesh has no texture coordinates for moisture.map to lie over.
+void require_painted(const geometry::SurfaceMesh& mesh);
 
 /// How thick a mesh is, from balls inside that touch it at its vertices (at most 4000 of them).
 struct Thickness {

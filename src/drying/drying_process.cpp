@@ -97,8 +97,16 @@ class Run {
         if (!m_parameters.moisture.on()) return {std::move(mesh), m_parameters};
         DryingParameters real = m_parameters;
         if (m_fruit != nullptr) real.fruit.size_m = real.fruit.unit_m * m_fruit->r1();
-        auto course = std::make_unique<MoistureCourse>(mesh, real, paint);
+        auto course = std::make_unique<MoistureCourse>(mesh, real, exposure_of(mesh, paint));
         return {std::move(mesh), m_parameters, std::move(course)};
+    }
+
+    SkinExposure exposure_of(const geometry::LayeredMesh& mesh, const SkinPaint& paint) const {
+        std::vector<geometry::Vec2> uvs;
+        if (paint)
+            uvs = m_fruit != nullptr && m_parameters.fruit.uvs == TakeSkin::Own ? m_fruit->uvs_under(mesh)
+                                                                                : atlas_middles(mesh.brick);
+        return skin_exposure(mesh, m_parameters.moisture, paint, uvs);
     }
 
     double seconds() const {

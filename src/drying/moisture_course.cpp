@@ -40,14 +40,14 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }  // namespace
 
 MoistureCourse::MoistureCourse(const geometry::LayeredMesh& mesh, const DryingParameters& parameters,
-                               const SkinPaint& paint)
+                               SkinExposure exposure)
     : m_drying(mesh, parameters.drying),
       m_moisture(parameters.moisture),
       m_largest_shrinkage(parameters.drying.shrinkage),
       m_size_m(parameters.fruit.size_m),
       m_flesh_layers(mesh.flesh_layers),
       m_cells(mesh),
-      m_exposure(skin_exposure(mesh, parameters.moisture, paint)),
+      m_exposure(std::move(exposure)),
       m_climate(water::climate_of(parameters.climate)),
       m_fresh_water(1 - parameters.moisture.solids_fraction()),
       // Such that fresh sap has the activity of src/water.

@@ -18,7 +18,7 @@ class MoistureCourse : public DryingCourse {
   public:
     /// `mesh`: the fresh body. Throws InputError where the parameters ask for what cannot be.
     MoistureCourse(const geometry::LayeredMesh& mesh, const DryingParameters& parameters,
-                   const SkinPaint& paint);
+                   SkinExposure exposure);
 
     CourseState start() const override;
     CourseIncrement increment(const CourseState& from, double target, double largest_change,

@@ -53,9 +53,6 @@ void check(const DryingParameters& p) {
     }
     if (p.fruit.stone == StoneKind::Mesh && p.fruit.stone_mesh.empty())
         throw InputError("fruit.stone = \"mesh\" needs the file of the stone in fruit.stone_mesh");
-    if (!p.moisture.map.empty())
-        throw InputError(
-            "moisture.map lies over the texture of a fruit of ten numbers: take it or fruit.mesh out");
 }
 
 namespace {

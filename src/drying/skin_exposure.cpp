@@ -16,12 +16,13 @@ Vec3 to_direction(const std::vector<double>& xyz) { return Vec3(xyz[0], xyz[1], 
 }  // namespace
 
 SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoistureParameters& parameters,
-                           const SkinPaint& paint) {
+                           const SkinPaint& paint, const std::vector<geometry::Vec2>& uvs) {
     const auto& quads = mesh.brick.quads;
     SkinExposure result{std::vector<double>(quads.size(), 1), std::vector<double>(quads.size(), 0)};
     const std::vector<Vec3> skin = mesh.level_positions(mesh.layers);
     const std::vector<Shade> shades = shades_of(parameters);
-    const auto uvs = geometry::brick_atlas(mesh.brick);
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& p : skin) centre += p / static_cast<double>(skin.size());
     for (std::size_t q = 0; q < quads.size(); ++q) {
         const auto corner = [&](std::size_t c) -> const Vec3& { return skin[quads[q][c]]; };
         const Vec3 middle = (corner(0) + corner(1) + corner(2) + corner(3)) / 4;
@@ -30,16 +31,20 @@ SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoisturePara
             result.sun[q] = std::max(0.0, normal.dot(to_direction(parameters.sun_direction)));
         }
         for (const Shade& shade : shades) {
-            const double cosine = middle.normalized().dot(to_direction(shade.direction));
+            const double cosine = (middle - centre).normalized().dot(to_direction(shade.direction));
             if (cosine < std::cos(shade.half_angle_deg * std::numbers::pi / 180)) continue;
             result.transpiration[q] *= shade.factor;
             result.sun[q] = 0;
         }
-        if (paint) {
-            const geometry::Vec2 uv = (uvs[q][0] + uvs[q][1] + uvs[q][2] + uvs[q][3]) / 4;
-            result.transpiration[q] *= std::clamp(paint(uv), 0.0, 1.0);
-        }
+        if (paint) result.transpiration[q] *= std::clamp(paint(uvs[q]), 0.0, 1.0);
     }
+    return result;
+}
+
+std::vector<geometry::Vec2> atlas_middles(const geometry::BrickSurface& brick) {
+    std::vector<geometry::Vec2> result;
+    for (const auto& corners : geometry::brick_atlas(brick))
+        result.emplace_back((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
     return result;
 }
 

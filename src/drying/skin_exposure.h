@@ -17,8 +17,12 @@ struct SkinExposure {
     std::vector<double> sun;  ///< cosine between the fresh skin's normal and the sun, 0 where there is none
 };
 
+/// `uvs`: texture coordinates of the middles of the quads, read only where there is paint.
 SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoistureParameters& parameters,
-                           const SkinPaint& paint);
+                           const SkinPaint& paint, const std::vector<geometry::Vec2>& uvs);
+
+/// Texture coordinates of the middles of the quads in the solver's own atlas.
+std::vector<geometry::Vec2> atlas_middles(const geometry::BrickSurface& brick);
 
 /// Sunshine over its noon value, `hour` hours after a midnight: half a sine from 6 to 18 o'clock, or
 /// always 1.

@@ -114,10 +114,13 @@ std::string trimmed(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-bool is_bare_word(const std::string& text) {
-    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-           std::all_of(text.begin(), text.end(), [](char c) {
-               return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+/// A choice or a file: meridional, pepper.obj, ../fruit/fig.obj.
+bool is_bare_text(const std::string& text) {
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    const bool begins = !text.empty() && (is_letter(text[0]) || text[0] == '/' || text.starts_with("./") ||
+                                          text.starts_with("../"));
+    return begins && std::all_of(text.begin(), text.end(), [&](char c) {
+               return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == '/';
            });
 }
 
@@ -155,7 +158,7 @@ Assignment parse_setting(const std::string& setting) {
             return {key, place, value_of(node), texts_of(node)};
         }
     } catch (const toml::parse_error&) {
-        if (is_bare_word(text)) return {key, place, ParameterValue(text), std::nullopt};
+        if (is_bare_text(text)) return {key, place, ParameterValue(text), std::nullopt};
     }
     throw InputError(
         fmt::format("{}: {} is no value: write a number, true, false, a list as [1, 2], or a text in quotes",

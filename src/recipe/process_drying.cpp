@@ -58,7 +58,10 @@ Process drying_process() {
         drying::check(recipe.drying);
         // Files that cannot be read are told of before a take is begun.
         paint_of(recipe);
-        read_meshes(recipe.drying);
+        const auto meshes = read_meshes(recipe.drying);
+        const drying::DryingParameters& p = recipe.drying;
+        if (meshes && !p.moisture.map.empty() && p.fruit.uvs == drying::TakeSkin::Own)
+            drying::require_painted(meshes->fruit);
     };
     process.unit_length_m = [](const Recipe& recipe) { return real_r1_m(recipe.drying); };
     process.plan = plan_drying;

@@ -267,6 +267,11 @@ class TinyRuns(CommandLine):
         self.succeed("show", "whole.take", "--kind", "frame", "--colour", "moisture", "--size", 64, "--samples", 1)
         self.assertIn("moisture.map", self.fail_with(2, "dry", "sun.toml", "--set", "moisture.map=gone.png"))
         self.assertIn("climate.humidity", self.fail_with(2, "dry", "sun.toml", "--set", "climate.humidity=1.4"))
+        # Over the texture coordinates of an artist's mesh it is painted too.
+        self.succeed("dry", "bean", "--set", "mesh.n=8", "--set", "fruit.skin_thickness=0.1", "--set",
+                     "moisture.hours=4", "--set", f"moisture.map={self.folder / 'paint.png'}", "--no-pictures", "-o",
+                     "bean.take")
+        self.assertEqual(json.loads(self.succeed("measure", "bean.take", "--json"))["frames"][-1]["hours"], 4)
 
     def test_existing_take(self):
         self.dry("-o", "x.take")

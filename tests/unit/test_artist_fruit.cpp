@@ -86,6 +86,69 @@ TEST(ArtistFruit, EveryStoneIsMeshed) {
     EXPECT_NEAR(core_of(StoneKind::Ellipsoid), 0.3 * 0.2 * 0.2 * volume, 0.1 * 0.012 * volume);
 }
 
+/// A ball that is not in the middle of its file.
+geometry::SurfaceMesh ball_aside() {
+    geometry::SurfaceMesh mesh = test::sphere_mesh(48, 32, 0.02);
+    for (Vec3& p : mesh.positions) p += Vec3(0.1, 0.03, 0);
+    return mesh;
+}
+
+TEST(ArtistFruit, TextureCoordinatesUnderTheSkinAreTheMeshes) {
+    const DryingParameters p = coarse(0.1);
+    const ArtistFruit fruit({ball_aside(), {}}, p);
+    const geometry::LayeredMesh body = make_mesh(p, fruit);
+    const auto uvs = fruit.uvs_under(body);
+    ASSERT_EQ(uvs.size(), body.brick.quads.size());
+    const auto skin = body.level_positions(body.layers);
+    for (std::size_t q = 0; q < uvs.size(); ++q) {
+        Vec3 middle = Vec3::Zero();
+        for (const std::int32_t v : body.brick.quads[q]) middle += skin[static_cast<std::size_t>(v)] / 4;
+        const Vec3 d = (middle * fruit.r1() - Vec3(0.1, 0.03, 0)).normalized();
+        EXPECT_NEAR(uvs[q].y(), 0.02 + 0.96 * (std::asin(d.z()) / std::numbers::pi + 0.5), 0.01);
+        const double turn = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi);
+        if (std::hypot(d.x(), d.y()) > 0.5) {
+            EXPECT_NEAR(uvs[q].x(), 0.02 + 0.96 * (turn < 0 ? turn + 1 : turn), 0.01);
+        }
+    }
+}
+
+TEST(ArtistFruit, PaintOverItsTextureAndShadeAboutItsMiddleKeepWater) {
+    DryingParameters p = coarse(0.3);
+    p.fruit.stone = StoneKind::Ellipsoid;
+    p.moisture.hours = 20;
+    p.moisture.transpiration_ug_s_m2_pa = 5;
+    p.climate.name = water::ClimateName::Constant;
+    p.climate.temperature_c = 30;
+    p.climate.humidity = 0.4;
+    const auto moisture_above_and_below = [&](const SkinPaint& paint) {
+        FrameKeeper keeper;
+        run(p, {std::make_unique<const ArtistFruit>(ArtistMeshes{ball_aside(), {}}, p), paint}, keeper, {});
+        const take::FrameMesh& skin = keeper.frames.back().meshes.front();
+        const std::vector<float>& moisture = skin.find("moisture")->values;
+        std::array<double, 2> sums{}, counts{};
+        for (std::size_t v = 0; v < moisture.size(); ++v) {
+            const double z = keeper.mesh.rest.positions[v].z();
+            if (std::abs(z) < 0.5) continue;
+            sums[z > 0] += moisture[v];
+            counts[z > 0] += 1;
+        }
+        return std::array{sums[1] / counts[1], sums[0] / counts[0]};
+    };
+    const auto [above, below] =
+        moisture_above_and_below([](const geometry::Vec2& uv) { return uv.y() > 0.5 ? 0.0 : 1.0; });
+    EXPECT_GT(above, below + 0.02);
+    p.moisture.shades = {0, 0, -1, 80, 0};
+    const auto [lit, shaded] = moisture_above_and_below({});
+    EXPECT_GT(shaded, lit + 0.02);
+}
+
+TEST(ArtistFruit, PaintNeedsTextureCoordinates) {
+    geometry::SurfaceMesh mesh = ball_aside();
+    EXPECT_NO_THROW(require_painted(mesh));
+    mesh.corner_uvs.clear();
+    EXPECT_THAT(message_of([&] { require_painted(mesh); }), testing::HasSubstr("fruit.uvs = \"atlas\""));
+}
+
 TEST(ArtistSkin, VerticesComeBackExactlyAndBallsShrinkByTheClosedForm) {
     const auto mesh = test::sphere_mesh(40, 28, 0.02);
     DryingParameters p = coarse(0.03);

@@ -39,7 +39,7 @@ struct Fruit {
     LayeredMesh mesh = flesh_ball(8, 6, kStone);
     MoistureCourse course;
     explicit Fruit(const DryingParameters& p, const SkinPaint& paint = {})
-        : parameters(p), course(mesh, p, paint) {}
+        : parameters(p), course(mesh, p, skin_exposure(mesh, p.moisture, paint, atlas_middles(mesh.brick))) {}
 
     /// Dries without moving, increment by increment.
     CourseState at(double hours) const {

@@ -240,9 +240,16 @@ TEST_F(RecipeLoad, RefusesSettingsThatAreNone) {
     EXPECT_THAT(complaint(file, {"fruit.r4=0.3.4"}), HasSubstr("0.3.4 is no value"));
     EXPECT_THAT(complaint(file, {"title=two words"}), HasSubstr("a text in quotes"));
     EXPECT_THAT(complaint(file, {"fruit.r4=1\nseed=2"}), HasSubstr("is no value"));
+    EXPECT_THAT(complaint(file, {"fruit.r4=.5/2"}), HasSubstr("is no value"));
     EXPECT_THAT(complaint(file, {"fruit.r4=nan"}), HasSubstr("--set fruit.r4=nan: fruit.r4 must be > 0"));
     EXPECT_THAT(complaint(file, {"preset=jujube"}), HasSubstr("preset can only stand in a recipe file"));
     EXPECT_THAT(complaint(file, {"meterial.gamma=3"}), HasSubstr("did you mean material.gamma?"));
+}
+
+TEST_F(RecipeLoad, FilesNeedNoQuotes) {
+    const std::string file = write("");
+    for (const std::string mesh : {"gone.obj", "./gone.obj", "../fruit/gone-2.obj", "/fruit/gone.obj"})
+        EXPECT_THAT(complaint(file, {"fruit.mesh=" + mesh}), HasSubstr("there is no such file")) << mesh;
 }
 
 TEST_F(RecipeLoad, RefusesNamesThatAreNoFileNames) {

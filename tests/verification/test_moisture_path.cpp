@@ -39,7 +39,7 @@ DryingPath fruit(const DryingParameters& p) {
     const auto shape = make_shape(p.fruit);
     geometry::LayeredMesh mesh = make_mesh(p, *shape);
     add_imperfection(mesh, p, {});
-    auto course = std::make_unique<MoistureCourse>(mesh, p, SkinPaint{});
+    auto course = std::make_unique<MoistureCourse>(mesh, p, skin_exposure(mesh, p.moisture, {}, {}));
     return {std::move(mesh), p, std::move(course)};
 }
 
