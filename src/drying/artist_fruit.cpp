@@ -76,16 +76,8 @@ std::vector<Vec3> ArtistFruit::vertices() const {
     return result;
 }
 
-void require_painted(const SurfaceMesh& mesh) {
-    if (mesh.corner_uvs.empty())
-        throw InputError(
-            "moisture.map lies over the texture coordinates of fruit.mesh, which has none: unwrap the mesh, "
-            "or "
-            "set fruit.uvs = \"atlas\" and paint over the atlas of the take");
-}
-
 std::vector<geometry::Vec2> ArtistFruit::uvs_under(const geometry::LayeredMesh& mesh) const {
-    require_painted(m_mesh);
+    if (m_mesh.corner_uvs.empty()) throw InputError("fruit.mesh has no texture coordinates to paint over");
     const std::vector<Vec3> skin = mesh.level_positions(mesh.layers);
     std::vector<geometry::Vec2> result;
     result.reserve(mesh.brick.quads.size());
@@ -97,10 +89,7 @@ std::vector<geometry::Vec2> ArtistFruit::uvs_under(const geometry::LayeredMesh& 
         }
         geometry::SurfacePlace place = m_surface.nearest(middle, outward).place;
         if (place.triangle < 0) place = m_surface.nearest(middle).place;
-        const auto uvs =
-            geometry::uvs_of(m_mesh, m_surface.triangles().origin[static_cast<std::size_t>(place.triangle)]);
-        result.emplace_back(place.weights[0] * uvs[0] + place.weights[1] * uvs[1] +
-                            place.weights[2] * uvs[2]);
+        result.push_back(geometry::uv_at(m_mesh, m_surface.triangles(), place));
     }
     return result;
 }

@@ -53,9 +53,6 @@ class ArtistFruit {
     double m_elongation = 1;
 };
 
-/// Throws InputError where an artist's mesh has no texture coordinates for moisture.map to lie over.
-void require_painted(const geometry::SurfaceMesh& mesh);
-
 /// How thick a mesh is, from balls inside that touch it at its vertices (at most 4000 of them).
 struct Thickness {
     double smallest = 0;  ///< radius of the smallest ball, in the units of the file

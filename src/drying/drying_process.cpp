@@ -54,8 +54,7 @@ class Run {
           m_context(context),
           m_frames(frame_parameters(parameters)),
           m_path(fresh_path(files.paint)) {
-        if (m_fruit != nullptr && parameters.fruit.uvs == TakeSkin::Own)
-            m_artist_skin = std::make_unique<ArtistSkin>(*m_fruit, m_path.mesh());
+        if (on_artist_mesh()) m_artist_skin = std::make_unique<ArtistSkin>(*m_fruit, m_path.mesh());
         if (!checkpoint.empty()) {
             Checkpoint saved =
                 checkpoint_from(checkpoint, m_path.elasticity().size(), m_path.state().course.values.size());
@@ -87,6 +86,9 @@ class Run {
     }
 
   private:
+    /// Whether the take has the artist's mesh, not the solver's skin.
+    bool on_artist_mesh() const { return m_fruit != nullptr && m_parameters.fruit.uvs == TakeSkin::Own; }
+
     DryingPath fresh_path(const SkinPaint& paint) {
         m_context.progress({"meshing", 0, m_frames.back(), -1, ""});
         check(m_parameters);
@@ -103,9 +105,7 @@ class Run {
 
     SkinExposure exposure_of(const geometry::LayeredMesh& mesh, const SkinPaint& paint) const {
         std::vector<geometry::Vec2> uvs;
-        if (paint)
-            uvs = m_fruit != nullptr && m_parameters.fruit.uvs == TakeSkin::Own ? m_fruit->uvs_under(mesh)
-                                                                                : atlas_middles(mesh.brick);
+        if (paint) uvs = on_artist_mesh() ? m_fruit->uvs_under(mesh) : atlas_middles(mesh.brick);
         return skin_exposure(mesh, m_parameters.moisture, paint, uvs);
     }
 

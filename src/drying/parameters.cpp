@@ -154,7 +154,8 @@ void add_numerics(Table& t) {
           "mean edge of a surface element over the skin's thickness; above 0.75 the skin grows too stiff",
           {.maximum = 10, .above = 0});
     t.add("mesh.layers", "1", [](auto& p) -> auto& { return p.mesh.layers; },
-          "layers of elements from stone to skin, 8 or 16; 0: 8, or 16 where the skin is thin",
+          "layers of elements from stone to skin, 8 or 16; 0: 8, or 16 where the skin is thin and the flesh "
+          "thick",
           {.minimum = 0, .maximum = 16});
     t.add("mesh.skin_layers", "1", [](auto& p) -> auto& { return p.mesh.skin_layers; },
           "layers of elements in the skin; one is too soft in bending", {.minimum = 1, .maximum = 6});

@@ -13,6 +13,18 @@ using geometry::Vec3;
 
 Vec3 to_direction(const std::vector<double>& xyz) { return Vec3(xyz[0], xyz[1], xyz[2]).normalized(); }
 
+/// Mean of a surface over its area.
+Vec3 middle_of(const std::vector<Vec3>& positions, const std::vector<geometry::Face>& faces) {
+    const std::vector<double> areas = geometry::vertex_areas(positions, faces);
+    Vec3 sum = Vec3::Zero();
+    double area = 0;
+    for (std::size_t v = 0; v < areas.size(); ++v) {
+        sum += areas[v] * positions[v];
+        area += areas[v];
+    }
+    return sum / area;
+}
+
 }  // namespace
 
 SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoistureParameters& parameters,
@@ -21,8 +33,7 @@ SkinExposure skin_exposure(const geometry::LayeredMesh& mesh, const MoisturePara
     SkinExposure result{std::vector<double>(quads.size(), 1), std::vector<double>(quads.size(), 0)};
     const std::vector<Vec3> skin = mesh.level_positions(mesh.layers);
     const std::vector<Shade> shades = shades_of(parameters);
-    Vec3 centre = Vec3::Zero();
-    for (const Vec3& p : skin) centre += p / static_cast<double>(skin.size());
+    const Vec3 centre = middle_of(skin, mesh.faces());
     for (std::size_t q = 0; q < quads.size(); ++q) {
         const auto corner = [&](std::size_t c) -> const Vec3& { return skin[quads[q][c]]; };
         const Vec3 middle = (corner(0) + corner(1) + corner(2) + corner(3)) / 4;

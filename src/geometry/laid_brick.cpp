@@ -74,18 +74,19 @@ LaidBrick refined(const CurvedSurface& surface, const LaidBrick& coarse, const B
 }
 
 LaidBrick lay_brick(const CurvedSurface& surface, const SphereMap& map, const Lattice& cells) {
-    // Coarsest first, where each has three barriers. There a long brick has some 60 cells from end to end,
-    // and what is uneven from one to the other takes about the square of a third of that to go.
-    constexpr std::array<int, 3> kSweeps = {300, 60, 50};
+    // On the coarsest brick, with each of three barriers: what is uneven from end to end of a long one, which
+    // has up to 66 cells there, takes about the square of a third of that to go.
+    constexpr int kCoarsestSweeps = 300;
+    constexpr int kSweeps = 60, kFinestSweeps = 50;
     std::vector<Lattice> levels{cells};
-    while (levels.size() < kSweeps.size() && can_coarsen(levels.back()) &&
+    while (can_coarsen(levels.back()) &&
            *std::min_element(levels.back().begin(), levels.back().end()) >= 2 * kFewestCoarseCells)
         levels.push_back(coarser(levels.back()));
     LaidBrick laid = laid_by_map(surface, map, levels.back());
-    unfold_and_relax(surface, laid, kSweeps[0]);
+    unfold_and_relax(surface, laid, kCoarsestSweeps);
     for (std::size_t level = 1; level < levels.size(); ++level) {
         laid = refined(surface, laid, make_brick_surface(levels[levels.size() - 1 - level]));
-        relax(surface, laid, {kSweeps[level], 0.05});
+        relax(surface, laid, {level + 1 < levels.size() ? kSweeps : kFinestSweeps, 0.05});
     }
     return laid;
 }

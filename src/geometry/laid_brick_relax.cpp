@@ -153,7 +153,7 @@ class Relaxation {
 }  // namespace
 
 void relax(const CurvedSurface& surface, LaidBrick& laid, const RelaxSettings& settings) {
-    constexpr double kAtRest = 3e-4;  // of an edge
+    constexpr double kAtRest = 3e-4;  // of an edge: a long brick evens out by many small moves
     Relaxation relaxation(surface, laid, settings.barrier);
     for (int sweep = 0; sweep < settings.sweeps; ++sweep)
         if (relaxation.sweep(sweep % 2 == 1) < kAtRest) return;

@@ -23,6 +23,11 @@ std::array<Vec2, 3> uvs_of(const SurfaceMesh& mesh, const TriangleOrigin& origin
     return {uvs[origin.corner[0]], uvs[origin.corner[1]], uvs[origin.corner[2]]};
 }
 
+Vec2 uv_at(const SurfaceMesh& mesh, const TriangleSurface& surface, const SurfacePlace& place) {
+    const auto uvs = uvs_of(mesh, surface.origin[static_cast<std::size_t>(place.triangle)]);
+    return place.weights[0] * uvs[0] + place.weights[1] * uvs[1] + place.weights[2] * uvs[2];
+}
+
 void for_each_texel(const std::array<Vec2, 3>& uvs, int size,
                     const std::function<void(int x, int y, const Vec3& weights)>& visit) {
     std::array<Vec2, 3> p;  // in texels, y downwards, texel centres at whole numbers

@@ -17,6 +17,9 @@ void for_each_texel(const std::array<Vec2, 3>& uvs, int size,
 /// Texture coordinates of a triangle's corners.
 std::array<Vec2, 3> uvs_of(const SurfaceMesh& mesh, const TriangleOrigin& origin);
 
+/// Texture coordinates of a place on `surface`, welded_triangles(mesh).
+Vec2 uv_at(const SurfaceMesh& mesh, const TriangleSurface& surface, const SurfacePlace& place);
+
 /// Immutable; safe to read from several threads.
 class UvRaster {
   public:

@@ -29,8 +29,8 @@ struct Mistake {
 std::vector<Assignment> read_file(const std::filesystem::path& path, const std::vector<std::string>& tables,
                                   std::vector<Mistake>& mistakes);
 
-/// "key=value" as on the command line: the value is TOML, or a bare word, which is taken as text. Throws
-/// InputError.
+/// "key=value" as on the command line: the value is TOML, or a bare word or path, which is taken as
+/// text. Throws InputError.
 Assignment parse_setting(const std::string& setting);
 
 }  // namespace windfall::recipe

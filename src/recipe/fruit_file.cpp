@@ -24,6 +24,9 @@ std::optional<drying::ArtistMeshes> read_meshes(const drying::DryingParameters& 
     if (fruit.stone == drying::StoneKind::Mesh)
         meshes.stone = read_closed("fruit.stone_mesh", fruit.stone_mesh);
     drying::check_thickness(meshes.fruit, fruit);
+    const drying::MoistureParameters& moisture = parameters.moisture;
+    if (moisture.on() && !moisture.map.empty() && fruit.uvs == drying::TakeSkin::Own)
+        require_own_uvs(meshes.fruit, "fruit.mesh " + fruit.mesh);
     return meshes;
 }
 

@@ -1,7 +1,11 @@
 #include "recipe/mesh_surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/error.h"
+#include "geometry/uv_check.h"
 #include "meshfile/triangulate.h"
 
 namespace windfall::recipe {
@@ -71,6 +75,17 @@ geometry::SurfaceMesh surface_of(const meshfile::Mesh& mesh) {
         }
     }
     return surface;
+}
+
+void require_own_uvs(const geometry::SurfaceMesh& mesh, const std::string& name) {
+    try {
+        geometry::require_uvs(mesh, name);
+    } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}\nor set fruit.uvs = \"atlas\": the take then has a skin of its own in the mesh's "
+                        "shape, with texture coordinates of its own",
+                        error.what()));
+    }
 }
 
 }  // namespace windfall::recipe

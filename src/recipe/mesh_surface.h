@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "geometry/surface_mesh.h"
 #include "meshfile/mesh.h"
 
@@ -8,5 +10,8 @@ namespace windfall::recipe {
 /// counter-clockwise from outside, those with more than four corners cut into triangles, texture coordinates
 /// with v up (NaN where a corner has none; none at all when the file has none).
 geometry::SurfaceMesh surface_of(const meshfile::Mesh& mesh);
+
+/// geometry::require_uvs for a fruit whose take may have another skin: the message says so too.
+void require_own_uvs(const geometry::SurfaceMesh& mesh, const std::string& name);
 
 }  // namespace windfall::recipe

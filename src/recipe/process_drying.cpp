@@ -58,10 +58,7 @@ Process drying_process() {
         drying::check(recipe.drying);
         // Files that cannot be read are told of before a take is begun.
         paint_of(recipe);
-        const auto meshes = read_meshes(recipe.drying);
-        const drying::DryingParameters& p = recipe.drying;
-        if (meshes && !p.moisture.map.empty() && p.fruit.uvs == drying::TakeSkin::Own)
-            drying::require_painted(meshes->fruit);
+        read_meshes(recipe.drying);
     };
     process.unit_length_m = [](const Recipe& recipe) { return real_r1_m(recipe.drying); };
     process.plan = plan_drying;

@@ -32,9 +32,9 @@ struct Recipe {
 };
 
 /// Reads a shipped preset by its name or a recipe by the path of its file, then applies `settings`, each
-/// "key=value" with a TOML value (a bare word is taken as text). A text with a '/' or ending in ".toml" is a
-/// path, all else a preset's name. Throws InputError that lists every mistake found, one a line, with
-/// file:line:column.
+/// "key=value" with a TOML value (a bare word or path is taken as text). A text with a '/' or ending in
+/// ".toml" is a path, all else a preset's name. Throws InputError that lists every mistake found, one a line,
+/// with file:line:column.
 Recipe load(const std::string& preset_or_path, const std::vector<std::string>& settings = {});
 
 /// The recipe with every key of its process written out. Loading it gives the same values to the last bit.

@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "geometry/cube_atlas.h"
 #include "geometry/surface_check.h"
-#include "geometry/uv_check.h"
 #include "geometry/uv_raster.h"
 #include "meshfile/mesh_file.h"
 #include "recipe/mesh_surface.h"
@@ -26,10 +25,7 @@ geometry::Vec2 texture_place(const decay::Specimen& specimen, const geometry::Cu
         return atlas.uv(point.chart, point.s, point.t);
     }
     const geometry::SphereMap& map = specimen.artist->map;
-    const geometry::SurfacePlace place = map.place(direction);
-    const auto uvs = geometry::uvs_of(specimen.artist->mesh,
-                                      map.surface().origin[static_cast<std::size_t>(place.triangle)]);
-    return place.weights[0] * uvs[0] + place.weights[1] * uvs[1] + place.weights[2] * uvs[2];
+    return geometry::uv_at(specimen.artist->mesh, map.surface(), map.place(direction));
 }
 
 std::vector<float> mask_of(const decay::Specimen& specimen, const decay::DecayParameters& parameters) {
@@ -46,16 +42,7 @@ decay::Specimen artist_specimen(const decay::DecayParameters& parameters) {
     const std::string name = "fruit.mesh " + fruit.mesh;
     geometry::SurfaceMesh mesh = surface_of(meshfile::read(fruit.mesh));
     geometry::require_closed(mesh, name);
-    if (fruit.uvs == decay::MeshUvs::Own) {
-        try {
-            geometry::require_uvs(mesh, name);
-        } catch (const InputError& error) {
-            throw InputError(
-                fmt::format("{}\nor set fruit.uvs = \"atlas\": the take then has a skin of its own in the "
-                            "mesh's shape, with texture coordinates of its own",
-                            error.what()));
-        }
-    }
+    if (fruit.uvs == decay::MeshUvs::Own) require_own_uvs(mesh, name);
     if (fruit.up == decay::UpAxis::Y)
         for (geometry::Vec3& p : mesh.positions) p = decay::fruit_axes(p);
     geometry::Vec3 low = mesh.positions.front(), high = low;

@@ -30,6 +30,7 @@ TINY = ["sphere"] + [part for setting in TINY_SETTINGS for part in ("--set", set
 
 # Two white pixels by two.
 WHITE_PNG = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAADklEQVR42mP4DwYMEAoAU7oL9YXEbhEAAAAASUVORK5CYII=")
+BLACK_PNG = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAC0lEQVR4nGNgQAYAAA4AAamRc7EAAAAASUVORK5CYII=")
 
 
 class Texts(CommandLine):
@@ -268,10 +269,25 @@ class TinyRuns(CommandLine):
         self.assertIn("moisture.map", self.fail_with(2, "dry", "sun.toml", "--set", "moisture.map=gone.png"))
         self.assertIn("climate.humidity", self.fail_with(2, "dry", "sun.toml", "--set", "climate.humidity=1.4"))
         # Over the texture coordinates of an artist's mesh it is painted too.
-        self.succeed("dry", "bean", "--set", "mesh.n=8", "--set", "fruit.skin_thickness=0.1", "--set",
-                     "moisture.hours=4", "--set", f"moisture.map={self.folder / 'paint.png'}", "--no-pictures", "-o",
-                     "bean.take")
-        self.assertEqual(json.loads(self.succeed("measure", "bean.take", "--json"))["frames"][-1]["hours"], 4)
+        (self.folder / "black.png").write_bytes(BLACK_PNG)
+        bean = ["dry", "bean", "--set", "mesh.n=8", "--set", "fruit.skin_thickness=0.1", "--set", "moisture.hours=9",
+                "--set", "moisture.start_hour=8", "--no-pictures"]
+        lost = {}
+        for paint in ["paint", "black"]:
+            self.succeed(*bean, "--set", f"moisture.map={self.folder / paint}.png", "-o", f"{paint}.take")
+            frames = json.loads(self.succeed("measure", f"{paint}.take", "--json"))["frames"]
+            lost[paint] = frames[-1]["water_lost_g"]
+        self.assertGreater(lost["paint"], 1e-6)
+        self.assertEqual(lost["black"], 0)
+        # A mesh that is not unwrapped cannot be painted on.
+        lines = (pathlib.Path(__file__).parents[2] / "presets" / "meshes" / "bean.obj").read_text().splitlines()
+        (self.folder / "bare.obj").write_text("\n".join(
+            re.sub(r"/\d+", "", line) for line in lines if not line.startswith("vt")))
+        bare = [*bean, "--set", "fruit.mesh=bare.obj"]
+        self.succeed(*bare, "--dry-run")
+        paint = ["--set", f"moisture.map={self.folder / 'black.png'}"]
+        self.assertIn("fruit.uvs", self.fail_with(2, *bare, *paint, "--dry-run"))
+        self.succeed(*bare, *paint, "--set", "fruit.uvs=atlas", "--dry-run")
 
     def test_existing_take(self):
         self.dry("-o", "x.take")

@@ -142,13 +142,6 @@ TEST(ArtistFruit, PaintOverItsTextureAndShadeAboutItsMiddleKeepWater) {
     EXPECT_GT(shaded, lit + 0.02);
 }
 
-TEST(ArtistFruit, PaintNeedsTextureCoordinates) {
-    geometry::SurfaceMesh mesh = ball_aside();
-    EXPECT_NO_THROW(require_painted(mesh));
-    mesh.corner_uvs.clear();
-    EXPECT_THAT(message_of([&] { require_painted(mesh); }), testing::HasSubstr("fruit.uvs = \"atlas\""));
-}
-
 TEST(ArtistSkin, VerticesComeBackExactlyAndBallsShrinkByTheClosedForm) {
     const auto mesh = test::sphere_mesh(40, 28, 0.02);
     DryingParameters p = coarse(0.03);

@@ -6,6 +6,7 @@
 #include <Eigen/Sparse>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "drying/drying_path.h"
 #include "drying/imperfection.h"
@@ -37,13 +38,13 @@ class PlainTwin {
         const double factor = m_viscosity * m_end / step;
         System now = system(displacement, from, drying, factor, true);
         for (int iteration = 0; now.gradient.norm() > kTolerance; ++iteration) {
-            ASSERT_LT(iteration, 200);
+            if (iteration == kMostSteps) throw std::runtime_error("the twin does not converge");
             const Eigen::VectorXd way = descent(now);
             double length = 1;
             const double slope = way.dot(now.gradient);
             AlignedArray<double> trial(displacement.size());
             for (;; length /= 2) {
-                ASSERT_GT(length, 1e-10);
+                if (length < 1e-10) throw std::runtime_error("the twin's way does not go down");
                 for (std::size_t i = 0; i < trial.size(); ++i)
                     trial[i] = displacement[i] + length * way[static_cast<Eigen::Index>(i)];
                 const double potential = system(trial, from, drying, factor, false).potential;
@@ -58,6 +59,8 @@ class PlainTwin {
     }
 
   private:
+    static constexpr int kMostSteps = 100;
+    static constexpr double kLargestShift = 1e12;
     static constexpr double kTolerance = 1e-7;  // C0 r_1^2; forces of wrinkles are some 1e-2
 
     struct System {
@@ -104,7 +107,7 @@ class PlainTwin {
 
     /// Newton's step, with as much mass added to the matrix as makes it positive definite.
     Eigen::VectorXd descent(const System& now) {
-        for (double shift = 0;; shift = std::max(10.0, 4 * shift)) {
+        for (double shift = 0; shift < kLargestShift; shift = std::max(10.0, 4 * shift)) {
             Eigen::SparseMatrix<double> matrix = now.hessian;
             for (Eigen::Index i = 0; i < m_mass.size(); ++i) matrix.coeffRef(i, i) += shift * m_mass[i];
             if (!m_analysed) m_solver.analyzePattern(matrix);
@@ -112,6 +115,7 @@ class PlainTwin {
             m_solver.factorize(matrix);
             if (m_solver.info() == Eigen::Success) return -m_solver.solve(now.gradient);
         }
+        throw std::runtime_error("the twin's matrix is not finite");
     }
 
     const geometry::LayeredMesh& m_mesh;
