@@ -25,38 +25,41 @@ class PlainTwin {
           m_mass(static_cast<Eigen::Index>(path.elasticity().size())),
           m_viscosity(viscosity),
           m_end(end),
-          displacement(path.elasticity().size()) {
+          m_displacement(path.elasticity().size()) {
         const auto layers = static_cast<std::size_t>(m_mesh.layers);
-        for (std::size_t i = 0; i < displacement.size(); ++i)
+        for (std::size_t i = 0; i < m_displacement.size(); ++i)
             m_mass[static_cast<Eigen::Index>(i)] =
                 path.elasticity().mass()[i / (3 * layers) * layers + i % layers];
     }
 
     /// Minimises the incremental potential of drying.md from where the twin is; `drying` is that at the end.
     void advance(double step, const DryingField& drying) {
-        const AlignedArray<double> from = displacement;
+        const AlignedArray<double> from = m_displacement;
         const double factor = m_viscosity * m_end / step;
-        System now = system(displacement, from, drying, factor, true);
+        System now = system(m_displacement, from, drying, factor, true);
         for (int iteration = 0; now.gradient.norm() > kTolerance; ++iteration) {
             if (iteration == kMostSteps) throw std::runtime_error("the twin does not converge");
             const Eigen::VectorXd way = descent(now);
             double length = 1;
             const double slope = way.dot(now.gradient);
-            AlignedArray<double> trial(displacement.size());
+            AlignedArray<double> trial(m_displacement.size());
             for (;; length /= 2) {
                 if (length < 1e-10) throw std::runtime_error("the twin's way does not go down");
                 for (std::size_t i = 0; i < trial.size(); ++i)
-                    trial[i] = displacement[i] + length * way[static_cast<Eigen::Index>(i)];
+                    trial[i] = m_displacement[i] + length * way[static_cast<Eigen::Index>(i)];
                 const double potential = system(trial, from, drying, factor, false).potential;
                 // Rounding of the potential shall not refuse the last steps.
                 if (potential <= now.potential + 1e-4 * length * slope + 1e-13 * std::abs(now.potential))
                     break;
             }
-            displacement = trial;
-            now = system(displacement, from, drying, factor, true);
+            m_displacement = trial;
+            now = system(m_displacement, from, drying, factor, true);
         }
-        energy = now.energy;
+        m_energy = now.energy;
     }
+
+    const AlignedArray<double>& displacement() const { return m_displacement; }
+    double energy() const { return m_energy; }
 
   private:
     static constexpr int kMostSteps = 100;
@@ -125,10 +128,8 @@ class PlainTwin {
     double m_viscosity, m_end;
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_solver;
     bool m_analysed = false;
-
-  public:
-    AlignedArray<double> displacement;
-    double energy = 0;
+    AlignedArray<double> m_displacement;
+    double m_energy = 0;
 };
 
 double root_mean_square(const std::vector<double>& values) {
@@ -159,7 +160,7 @@ TEST(PlainTwin, GoesTheSameWayThroughTheBifurcation) {
         twin.advance(path.shrinkage() - before, path.drying_field());
         PathState state;
         state.course = path.state().course;
-        state.displacements.push_back(twin.displacement);
+        state.displacements.push_back(twin.displacement());
         measure.set_state(std::move(state));
         const double its = root_mean_square(measure.skin_depth()) / p.fruit.skin_thickness;
         const double own = root_mean_square(path.skin_depth()) / p.fruit.skin_thickness;
@@ -173,7 +174,7 @@ TEST(PlainTwin, GoesTheSameWayThroughTheBifurcation) {
     ASSERT_GT(onset, 0) << "the test must pass the bifurcation to mean anything";
     EXPECT_NEAR(path.onset(), onset, 2e-3 * onset);  // its depth is weighted by area
     EXPECT_GT(depth_before, 0.5);
-    EXPECT_NEAR(path.state().history.back().elastic_energy, twin.energy, 1e-6 * twin.energy);
+    EXPECT_NEAR(path.state().history.back().elastic_energy, twin.energy(), 1e-6 * twin.energy());
     const std::vector<geometry::Vec3> own = path.positions(), its = measure.positions();
     double largest = 0;
     for (std::size_t i = 0; i < own.size(); ++i) largest = std::max(largest, (own[i] - its[i]).norm());
