@@ -53,8 +53,8 @@ struct Multigrid::Level {
     ColumnOrder order;
     AlignedArray<float> diagonal, lower;
     AlignedArray<std::uint16_t> packed;
+    AlignedArray<float> inverse_factor;
     float matrix_scale = 1;
-    float inverse_scale = 1;
     AlignedArray<float> residual;
     AlignedArray<float> b, x;  ///< these and those below: not on the finest level
     AlignedArray<float> defect, corrected, direction, image;
@@ -69,7 +69,8 @@ struct Multigrid::Level {
           order(make_column_order(brick)),
           diagonal(columns() * 18 * layers),
           lower(order.lower_column.size() * 27 * layers),
-          packed((columns() * 9 * layers + order.lower_column.size() * 27) * layers),
+          packed((columns() * inverse_vectors(layers) + order.lower_column.size() * 27) * layers),
+          inverse_factor(columns()),
           residual(columns() * 3 * layers) {
         if (!below) return;
         for (AlignedArray<float>* array : {&b, &x, &defect, &corrected, &direction, &image})
@@ -83,7 +84,7 @@ struct Multigrid::Level {
     UpperArrays upper() const {
         return {order.upper_begin.data(), order.upper_column.data(), order.upper_entry.data()};
     }
-    SmootherArrays smoother() { return {packed.data(), matrix_scale, inverse_scale}; }
+    SmootherArrays smoother() { return {packed.data(), matrix_scale, inverse_factor.data()}; }
     TransferArrays transfer() const {
         return {child_begin.data(), child_column.data(), child_weight.data(),
                 reinterpret_cast<const std::int32_t(*)[4]>(parent.data()), parent_count.data()};
@@ -124,7 +125,6 @@ Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const Kern
         m_levels[m_levels.size() - 2]->connect(*m_levels.back());
     }
     if (m_levels.size() < 2) throw std::logic_error("multigrid needs cells that can be halved");
-    m_inverse = AlignedArray<float>(m_levels.front()->columns() * 9 * layers * layers);
 }
 
 Multigrid::~Multigrid() = default;
@@ -144,18 +144,17 @@ void Multigrid::set_matrix_zero() {
 
 bool Multigrid::set_up_smoother(Level& level) {
     const MatrixArrays matrix = level.matrix();
+    level.matrix_scale = half_precision_scale(largest_magnitude(level.lower, level.lower.size()));
+    const SmootherArrays smoother = level.smoother();
     std::atomic<bool> definite{true};
     parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
-        if (!m_table.invert_diagonal(matrix, m_inverse.data(), range_of(begin, end))) definite = false;
+        const Range columns = range_of(begin, end);
+        if (m_table.pack_inverses(matrix, smoother, columns))
+            m_table.pack_lower(matrix, smoother, columns);
+        else
+            definite = false;
     });
-    if (!definite) return false;
-    level.matrix_scale = half_precision_scale(largest_magnitude(level.lower, level.lower.size()));
-    level.inverse_scale =
-        half_precision_scale(largest_magnitude(m_inverse, level.columns() * 9 * m_layers * m_layers));
-    parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
-        m_table.pack(matrix, m_inverse.data(), level.smoother(), range_of(begin, end));
-    });
-    return true;
+    return definite;
 }
 
 bool Multigrid::set_up() {

@@ -67,7 +67,6 @@ class Multigrid {
     const KernelTable& m_table;
     std::size_t m_krylov_columns;
     std::vector<std::unique_ptr<Level>> m_levels;  ///< finest first
-    AlignedArray<float> m_inverse;                 ///< of the level that is being set up
 };
 
 }  // namespace windfall::drying

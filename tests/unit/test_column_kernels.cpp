@@ -111,32 +111,87 @@ TEST_P(ColumnKernels, ProductIsThatOfTheSymmetricMatrix) {
     EXPECT_LT((to_eigen(y) - expected).norm(), 1e-5 * expected.norm());
 }
 
+/// The smoother of a level, with the scale of lower blocks that the tests use.
+struct Smoother {
+    AlignedArray<std::uint16_t> packed;
+    AlignedArray<float> inverse_factor;
+
+    explicit Smoother(const RandomLevel& level)
+        : packed(static_cast<std::size_t>(level.order.column_count()) * inverse_vectors(level.layers) *
+                     level.layers +
+                 level.lower.size()),
+          inverse_factor(level.order.column_count()) {}
+    SmootherArrays arrays() { return {packed.data(), 64, inverse_factor.data()}; }
+};
+
+/// Forward sweep over a matrix without couplings of columns: each column's inverse times b.
 TEST_P(ColumnKernels, InvertedBlocksAreInverses) {
     RandomLevel level({2, 2, 2}, GetParam());
+    level.lower.set_zero();
     const int layers = GetParam();
-    const int block_size = 3 * layers;
-    AlignedArray<float> inverse(static_cast<std::size_t>(level.order.column_count()) * 9 * layers * layers);
-    ASSERT_TRUE(m_table.invert_diagonal(level.matrix(), inverse.data(), {0, level.order.column_count()}));
+    const std::size_t block_size = 3 * static_cast<std::size_t>(layers);
+    // Columns of other magnitudes, and in some of them layers like those of a thin stiff skin: a thousand
+    // times as stiff, the coupling to the next layer nearly as large as the layers' own blocks.
     for (std::int32_t c = 0; c < level.order.column_count(); ++c) {
-        const Eigen::Index start = level.unknown(c, 0, 0);
-        const Eigen::MatrixXd exact = level.dense.block(start, start, block_size, block_size).inverse();
-        for (int column = 0; column < block_size; ++column)
-            for (int row = 0; row < block_size; ++row)
-                ASSERT_NEAR(
-                    inverse[static_cast<std::size_t>(c) * 9 * layers * layers + column * block_size + row],
-                    exact(row, column), 1e-5);
+        float* d = level.diagonal.data() + static_cast<std::size_t>(c) * 18 * layers;
+        const float magnitude = std::exp2(static_cast<float>(c % 7 * 4 - 12));
+        for (int i = 0; i < 18 * layers; ++i) d[i] *= magnitude;
+        for (int k = layers / 2; c % 2 == 1 && k < layers; ++k)
+            for (int i = 0; i < 3; ++i) {
+                const float stiff = 60e3F * magnitude;
+                d[4 * i * layers + k] -= stiff;
+                d[(9 + 4 * i) * layers + k] += stiff;
+                d[(9 + 4 * i) * layers + k - 1] += stiff;
+            }
     }
+    const Eigen::MatrixXd dense = level.to_dense();
+    Smoother smoother(level);
+    const Range all = {0, level.order.column_count()};
+    ASSERT_TRUE(m_table.pack_inverses(level.matrix(), smoother.arrays(), all));
+    m_table.pack_lower(level.matrix(), smoother.arrays(), all);
+    AlignedArray<float> b(static_cast<std::size_t>(level.size()));
+    AlignedArray<float> x(b.size());
+    AlignedArray<float> residual(b.size());
+    for (std::size_t unknown = 0; unknown < block_size; ++unknown) {
+        for (std::int32_t c = 0; c < all.end; ++c) b[c * block_size + unknown] = 1;
+        m_table.sweep_forward(level.matrix(), smoother.arrays(), b.data(), x.data(), residual.data(), all);
+        for (std::int32_t c = 0; c < all.end; ++c) {
+            const auto start = static_cast<Eigen::Index>(c * block_size);
+            const auto size = static_cast<Eigen::Index>(block_size);
+            const Eigen::MatrixXd exact = dense.block(start, start, size, size).inverse();
+            const Eigen::VectorXd column = to_eigen(x).segment(start, size);
+            const Eigen::VectorXd expected = exact.col(static_cast<Eigen::Index>(unknown));
+            // Half precision: 2^-11 of each factor, and entries of one vector share a column's scale.
+            ASSERT_LT((column - expected).norm(), 1.5e-3 * expected.norm()) << c << " " << unknown;
+            b[c * block_size + unknown] = 0;
+        }
+    }
+}
+
+TEST_P(ColumnKernels, IndefiniteBlocksAreRefused) {
+    RandomLevel level({2, 2, 2}, GetParam());
+    const int layers = GetParam();
+    Smoother smoother(level);
+    const Range all = {0, level.order.column_count()};
+    for (const std::int32_t column : {0, 17, all.end - 1})
+        for (int k = 0; k < layers; ++k) {
+            float& entry = level.diagonal[(static_cast<std::size_t>(column) * 18 + 13) * layers + k];
+            const float before = entry;
+            entry = -1;
+            EXPECT_FALSE(m_table.pack_inverses(level.matrix(), smoother.arrays(), all)) << column << " " << k;
+            entry = before;
+        }
+    EXPECT_TRUE(m_table.pack_inverses(level.matrix(), smoother.arrays(), all));
 }
 
 TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
     RandomLevel level({3, 2, 2}, GetParam());
     const int layers = GetParam();
     const Range all = {0, level.order.column_count()};
-    AlignedArray<float> inverse(static_cast<std::size_t>(all.end) * 9 * layers * layers);
-    AlignedArray<std::uint16_t> packed(inverse.size() + level.lower.size());
-    ASSERT_TRUE(m_table.invert_diagonal(level.matrix(), inverse.data(), all));
-    const SmootherArrays smoother = {packed.data(), 64, 4096};
-    m_table.pack(level.matrix(), inverse.data(), smoother, all);
+    Smoother made(level);
+    const SmootherArrays smoother = made.arrays();
+    ASSERT_TRUE(m_table.pack_inverses(level.matrix(), smoother, all));
+    m_table.pack_lower(level.matrix(), smoother, all);
     const AlignedArray<float> b = random_floats(level.size(), 2);
     AlignedArray<float> x(b.size());
     AlignedArray<float> residual(b.size());

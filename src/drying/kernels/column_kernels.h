@@ -52,97 +52,49 @@ void product(const MatrixArrays& m, const float* x, float* y, Range columns) {
     }
 }
 
-/// Sixteen columns at a time, one in each lane: Gauss-Jordan without pivoting, which a definite matrix does
-/// not need.
+/// Offset of a column's inverse in SmootherArrays::packed; its lower blocks follow.
 template <int L>
-bool invert_diagonal(const MatrixArrays& m, float* inverse, Range columns) {
+inline std::int64_t packed_offset(const MatrixArrays& m, std::int64_t column) {
+    return (inverse_vectors(L) * column + 27 * static_cast<std::int64_t>(m.lower_begin[column])) * L;
+}
+
+template <int L>
+bool pack_inverses(const MatrixArrays& m, SmootherArrays s, Range columns) {
     using Batch = LaneTypes<16>::F;
-    constexpr int kSize = 3 * L;
-    constexpr int kBatch = 16;
-    alignas(64) static thread_local float storage[kSize * kSize * kBatch];
-    Batch* a = reinterpret_cast<Batch*>(storage);
-    const Batch zero = {};
-    for (std::int64_t first = columns.begin; first < columns.end; first += kBatch) {
-        for (int i = 0; i < kSize * kSize; ++i) a[i] = zero;
-        for (int q = 0; q < kBatch; ++q) {
-            const std::int64_t v = first + q < columns.end ? first + q : columns.end - 1;
-            const float* d = m.diagonal + v * 18 * L;
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j)
-                    for (int k = 0; k < L; ++k) {
-                        a[(3 * k + i) * kSize + 3 * k + j][q] = d[(9 + 3 * i + j) * L + k];
-                        if (k == 0) continue;
-                        const float coupling = d[(3 * i + j) * L + k];
-                        a[(3 * k + i) * kSize + 3 * (k - 1) + j][q] = coupling;
-                        a[(3 * (k - 1) + j) * kSize + 3 * k + i][q] = coupling;
-                    }
+    for (std::int64_t first = columns.begin; first < columns.end; first += 16) {
+        Batch3x3 own[L];
+        Batch3x3 below[L];
+        load_columns<L>(m, first, columns.end - 1, own, below);
+        BatchInverse<L> inverse;
+        if (!inverse.invert(own, below)) return false;
+        const int count = columns.end - first < 16 ? static_cast<int>(columns.end - first) : 16;
+        float root[16];
+        for (int q = 0; q < count; ++q) {
+            root[q] = half_scale_root(inverse.largest[q]);
+            s.inverse_factor[first + q] = 1 / (root[q] * root[q] * s.matrix_scale);
         }
-        for (int p = 0; p < kSize; ++p) {
-            const Batch pivot = a[p * kSize + p];
-            for (int q = 0; q < kBatch; ++q)
-                if (!(pivot[q] > 0)) return false;
-            const Batch reciprocal = 1.0F / pivot;
-            a[p * kSize + p] = zero + 1.0F;
-            for (int j = 0; j < kSize; ++j) a[p * kSize + j] *= reciprocal;
-            for (int i = 0; i < kSize; ++i) {
-                if (i == p) continue;
-                const Batch factor = a[i * kSize + p];
-                a[i * kSize + p] = zero;
-                for (int j = 0; j < kSize; ++j) a[i * kSize + j] -= factor * a[p * kSize + j];
-            }
-        }
-        for (int q = 0; q < kBatch && first + q < columns.end; ++q) {
-            float* out = inverse + (first + q) * 9 * L * L;
-            // Row (k, i), column (l, j) goes to [j * L + l][i][k]; the mean of both triangles keeps it
-            // symmetric.
-            for (int j = 0; j < 3; ++j)
-                for (int l = 0; l < L; ++l)
-                    for (int i = 0; i < 3; ++i)
-                        for (int k = 0; k < L; ++k)
-                            out[((j * L + l) * 3 + i) * L + k] =
-                                0.5F * (a[(3 * k + i) * kSize + 3 * l + j][q] +
-                                        a[(3 * l + j) * kSize + 3 * k + i][q]);
+        Batch* rows = &inverse.at[0][0];
+        for (int i = 0; i < inverse_vectors(L) * L; i += 16) {
+            transpose(rows + i);
+            const bool pairs = i < 18 * L;
+            for (int q = 0; q < count; ++q)
+                store_half<16>(s.packed + packed_offset<L>(m, first + q) + i,
+                               rows[i + q] * (pairs ? root[q] * root[q] : root[q]));
         }
     }
     return true;
 }
 
-/// Offset of a column's inverse in SmootherArrays::packed; its lower blocks follow 9 L vectors later.
 template <int L>
-inline std::int64_t packed_offset(const MatrixArrays& m, std::int64_t column) {
-    return (9 * L * column + 27 * static_cast<std::int64_t>(m.lower_begin[column])) * L;
-}
-
-template <int L>
-void pack(const MatrixArrays& m, const float* inverse, SmootherArrays s, Range columns) {
+void pack_lower(const MatrixArrays& m, SmootherArrays s, Range columns) {
     using F = typename LaneTypes<L>::F;
     for (std::int64_t v = columns.begin; v < columns.end; ++v) {
-        std::uint16_t* out = s.packed + packed_offset<L>(m, v);
-        const F* in = reinterpret_cast<const F*>(inverse + v * 9 * L * L);
-        for (int i = 0; i < 9 * L; ++i, out += L) store_half<L>(out, in[i] * s.inverse_scale);
+        std::uint16_t* out = s.packed + packed_offset<L>(m, v) + inverse_vectors(L) * L;
         const F* lower =
             reinterpret_cast<const F*>(m.lower + static_cast<std::int64_t>(m.lower_begin[v]) * 27 * L);
         const int count = 27 * (m.lower_begin[v + 1] - m.lower_begin[v]);
         for (int i = 0; i < count; ++i, out += L) store_half<L>(out, lower[i] * s.matrix_scale);
     }
-}
-
-/// x = inverse * r * scale
-template <int L>
-inline void apply_inverse(const std::uint16_t* inverse, float scale, const typename LaneTypes<L>::F r[3],
-                          typename LaneTypes<L>::F x[3]) {
-    using F = typename LaneTypes<L>::F;
-    const float* unknowns = reinterpret_cast<const float*>(r);
-    // Four running sums per component: one alone would wait for each addition to finish.
-    constexpr int kSums = 4;
-    F sum[kSums][3];
-    for (int q = 0; q < kSums; ++q)
-        for (int i = 0; i < 3; ++i) sum[q][i] = load_half<L>(inverse + (q * 3 + i) * L) * unknowns[q];
-    for (int c = kSums; c < 3 * L; c += kSums)
-        for (int q = 0; q < kSums; ++q)
-            for (int i = 0; i < 3; ++i)
-                sum[q][i] += load_half<L>(inverse + ((c + q) * 3 + i) * L) * unknowns[c + q];
-    for (int i = 0; i < 3; ++i) x[i] = ((sum[0][i] + sum[1][i]) + (sum[2][i] + sum[3][i])) * scale;
 }
 
 /// One column of a Gauss-Seidel sweep: solves its block for the right-hand side r (times matrix_scale) less
@@ -152,7 +104,7 @@ inline void sweep_column(const MatrixArrays& m, const SmootherArrays& s, std::in
                          typename LaneTypes<L>::F r[3], float* x, float* residual) {
     using F = typename LaneTypes<L>::F;
     const std::uint16_t* inverse = s.packed + packed_offset<L>(m, v);
-    const std::uint16_t* blocks = inverse + 9 * L * L;
+    const std::uint16_t* blocks = inverse + inverse_vectors(L) * L;
     const int begin = m.lower_begin[v];
     const int end = m.lower_begin[v + 1];
     for (int e = begin; e < end; ++e) {
@@ -162,7 +114,7 @@ inline void sweep_column(const MatrixArrays& m, const SmootherArrays& s, std::in
                        r);
     }
     F solved[3];
-    apply_inverse<L>(inverse, 1.0F / (s.inverse_scale * s.matrix_scale), r, solved);
+    apply_inverse<L>(inverse, s.inverse_factor[v], r, solved);
     F* xv = reinterpret_cast<F*>(x + 3 * v * L);
     for (int i = 0; i < 3; ++i) xv[i] = solved[i];
     for (int e = begin; e < end; ++e) {

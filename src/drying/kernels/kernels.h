@@ -29,6 +29,10 @@ struct FibreArrays {
 };
 constexpr std::int64_t kFibreEntries = 4;
 
+/// Numbers of an element in `volumes`: its volume in the fresh fruit and now, the least and the largest det F
+/// at its integration points.
+constexpr std::int64_t kVolumeEntries = 4;
+
 /// Symmetric block matrix over columns, lower triangle in solver order. A block couples lane k of the row's
 /// column with lanes k - 1, k, k + 1 of the other; entry d * 9 + 3 i + j of a block is component (i, j) for
 /// lane k + d - 1.
@@ -56,14 +60,20 @@ struct TransferArrays {
 };
 
 /// Matrix of the Gauss-Seidel smoother in half precision: per column, in order, the inverse of its diagonal
-/// block
-/// ([3 L][3][L]: for each unknown of the column, lane by lane, its column of the inverse) and its lower
-/// blocks. Both are stored times powers of two that keep them in range.
+/// block (column_inverse.h) and its lower blocks.
 struct SmootherArrays {
     std::uint16_t* packed;
-    float matrix_scale;
-    float inverse_scale;
+    float matrix_scale;     ///< a power of two: lower blocks are stored times it
+    float* inverse_factor;  ///< [column] takes the stored inverse to the inverse, over matrix_scale
 };
+
+/// Vectors of half precision that a column's inverse takes: 18 for pairs of layers, 9 more for each of the
+/// group sizes 4, 8, ..., `layers`.
+constexpr int inverse_vectors(int layers) {
+    int vectors = 18;
+    for (int size = 4; size <= layers; size *= 2) vectors += 9;
+    return vectors;
+}
 
 /// Where the energy kernel adds up, per call.
 struct EnergySums {
@@ -88,6 +98,9 @@ struct KernelTable {
     /// Energy of the elements of `quads`; with `force` not null adds their gradient to it ([column][3][L]).
     EnergySums (*energy)(const ElementArrays&, const double* displacement, double* force, Range quads);
 
+    /// Volumes of the elements of `quads` into `out`, [quad][kVolumeEntries][L].
+    void (*volumes)(const ElementArrays&, const double* displacement, double* out, Range quads);
+
     /// Adds the elements' second derivatives to the matrix. `pair_entry`: [quad][6] entry of the lower
     /// triangle for the corner pairs (0,1) (0,2) (0,3) (1,2) (1,3) (2,3).
     void (*assemble)(const ElementArrays&, const double* displacement, const std::int32_t (*pair_entry)[6],
@@ -102,12 +115,12 @@ struct KernelTable {
     /// y = A x. Ranges in solver order: y of earlier columns must have been set already.
     void (*product)(const MatrixArrays&, const float* x, float* y, Range columns);
 
-    /// Dense inverses of the diagonal blocks into the smoother's layout in single precision ([column][3
-    /// L][3][L]). False where a block is not positive definite.
-    bool (*invert_diagonal)(const MatrixArrays&, float* inverse, Range columns);
+    /// Inverts the diagonal blocks into the smoother; `matrix_scale` is set already. False where a block is
+    /// not positive definite.
+    bool (*pack_inverses)(const MatrixArrays&, SmootherArrays, Range columns);
 
-    /// Packs inverses and lower blocks to half precision.
-    void (*pack)(const MatrixArrays&, const float* inverse, SmootherArrays, Range columns);
+    /// Packs the lower blocks to half precision.
+    void (*pack_lower)(const MatrixArrays&, SmootherArrays, Range columns);
 
     /// x = forward Gauss-Seidel from zero for A x = b; leaves in `residual` (times matrix_scale) what the
     /// columns above add to the residual of each column.

@@ -2,7 +2,8 @@
 
 template <int L>
 constexpr KernelTable make_table(const char* instruction_set) {
-    return {instruction_set,      energy<L>,          assemble<L>, fibre_energy<L>,  assemble_fibres<L>,
-            product<L>,           invert_diagonal<L>, pack<L>,     sweep_forward<L>, sweep_backward<L>,
-            restrict_residual<L>, prolong<L>,         galerkin<L>};
+    return {instruction_set, energy<L>,          volumes<L>,        assemble<L>,
+            fibre_energy<L>, assemble_fibres<L>, product<L>,        pack_inverses<L>,
+            pack_lower<L>,   sweep_forward<L>,   sweep_backward<L>, restrict_residual<L>,
+            prolong<L>,      galerkin<L>};
 }
