@@ -1,9 +1,11 @@
 #pragma once
 // Large flat arrays for the hot loops: 128-byte aligned, zero at first, on huge pages where the system gives
-// them.
+// them. Large ones are mapped, so that nobody writes zeros that the system has written already, and pages
+// come to be in the loops that first write them.
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -20,14 +22,14 @@ class AlignedArray {
   public:
     AlignedArray() = default;
     explicit AlignedArray(std::size_t size) : m_size(size) {
-        constexpr std::size_t kHugePage = std::size_t{2} << 20U;
-        const std::size_t wanted = size * sizeof(T);
-        const std::size_t alignment = wanted >= 2 * kHugePage ? kHugePage : 128;
-        const std::size_t bytes = (wanted + alignment - 1) / alignment * alignment;
-        if (bytes == 0) return;
-        m_data.reset(static_cast<T*>(std::aligned_alloc(alignment, bytes)));
+        if (size == 0) return;
+        if (size * sizeof(T) >= kMapped) {
+            map(size * sizeof(T));
+            return;
+        }
+        const std::size_t bytes = rounded_up(size * sizeof(T), kAlignment);
+        m_data = Pointer(static_cast<T*>(std::aligned_alloc(kAlignment, bytes)), Free{});
         if (!m_data) throw std::bad_alloc();
-        if (alignment == kHugePage) madvise(m_data.get(), bytes, MADV_HUGEPAGE);
         set_zero();
     }
     AlignedArray(const AlignedArray& other) : AlignedArray(other.m_size) {
@@ -60,10 +62,40 @@ class AlignedArray {
     }
 
   private:
+    static constexpr std::size_t kAlignment = 128;
+    static constexpr std::size_t kHugePage = std::size_t{2} << 20U;
+    static constexpr std::size_t kMapped = 2 * kHugePage;
+
     struct Free {
-        void operator()(T* p) const { std::free(p); }
+        std::size_t mapped_bytes = 0;  ///< 0: from aligned_alloc
+        void operator()(T* p) const {
+            if (mapped_bytes > 0)
+                munmap(p, mapped_bytes);
+            else
+                std::free(p);
+        }
     };
-    std::unique_ptr<T, Free> m_data;
+    using Pointer = std::unique_ptr<T, Free>;
+
+    static std::size_t rounded_up(std::size_t bytes, std::size_t unit) {
+        return (bytes + unit - 1) / unit * unit;
+    }
+    /// Maps whole huge pages and gives back what lies beside them.
+    void map(std::size_t wanted) {
+        const std::size_t bytes = rounded_up(wanted, kHugePage);
+        void* mapped =
+            mmap(nullptr, bytes + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (mapped == MAP_FAILED) throw std::bad_alloc();
+        auto* first = static_cast<char*>(mapped);
+        const std::size_t before =
+            (kHugePage - reinterpret_cast<std::uintptr_t>(first) % kHugePage) % kHugePage;
+        if (before > 0) munmap(first, before);
+        munmap(first + before + bytes, kHugePage - before);
+        madvise(first + before, bytes, MADV_HUGEPAGE);
+        m_data = Pointer(reinterpret_cast<T*>(first + before), Free{bytes});
+    }
+
+    Pointer m_data;
     std::size_t m_size = 0;
 };
 

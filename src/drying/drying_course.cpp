@@ -5,7 +5,7 @@
 namespace windfall::drying {
 
 CourseIncrement GivenShrinkage::increment(const CourseState& from, double target, double largest_change,
-                                          const std::vector<geometry::Vec3>& /*nodes*/) const {
+                                          const BodyNodes& /*nodes*/) const {
     CourseIncrement result;
     // No increment goes beyond the turn.
     if (from.parameter < m_most - kSameParameter) target = std::min(target, m_most);

@@ -1,5 +1,6 @@
 #pragma once
 // What dries a body along its path: how much each element has shrunk at each value of the path's parameter.
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,15 +26,17 @@ struct CourseIncrement {
     DryingField field;           ///< Fd at the end; valid as long as the course
 };
 
+using BodyNodes = std::function<std::vector<geometry::Vec3>()>;
+
 class DryingCourse {
   public:
     virtual ~DryingCourse() = default;
 
     virtual CourseState start() const = 0;
     /// Goes on from `from` until the parameter is `target` or an element's shrinkage has changed by
-    /// `largest_change`, whichever comes first. `nodes`: the body in `from`, as in LayeredMesh.
+    /// `largest_change`, whichever comes first. `nodes()`: the body in `from`, as in LayeredMesh.
     virtual CourseIncrement increment(const CourseState& from, double target, double largest_change,
-                                      const std::vector<geometry::Vec3>& nodes) const = 0;
+                                      const BodyNodes& nodes) const = 0;
     /// Fd in a state; valid as long as the course.
     virtual DryingField field(const CourseState& state) const = 0;
     /// Numbers of a state for frames, by name.
@@ -55,7 +58,7 @@ class GivenShrinkage : public DryingCourse {
 
     CourseState start() const override { return {}; }
     CourseIncrement increment(const CourseState& from, double target, double largest_change,
-                              const std::vector<geometry::Vec3>& nodes) const override;
+                              const BodyNodes& nodes) const override;
     DryingField field(const CourseState& state) const override { return m_drying.at(state.shrinkage); }
 
   private:

@@ -8,6 +8,7 @@
 
 #include "drying/slow_motion.h"
 #include "drying/specimen.h"
+#include "drying/viscosity.h"
 
 namespace windfall::drying {
 
@@ -31,6 +32,17 @@ double norm_of(const AlignedArray<double>& a) {
     double sum = 0;
     for (const double x : a) sum += x * x;
     return std::sqrt(sum);
+}
+
+/// [value(i)] for i in [0, size)
+template <class Value>
+AlignedArray<double> make_array(std::size_t size, const Value& value) {
+    constexpr std::size_t kBlock = std::size_t{1} << 14U;
+    AlignedArray<double> result(size);
+    parallel_blocks(size, kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) result[i] = value(i);
+    });
+    return result;
 }
 
 /// (u - a) M (u - b)
@@ -98,42 +110,20 @@ double DryingPath::onset() const {
     return -1;
 }
 
-double DryingPath::viscosity() const {
-    // While wrinkles appear, damping delays them and shifts their length; once they stand it only saves
-    // Newton steps.
-    constexpr double kFrom = 1.3;
-    constexpr double kOver = 0.35;
-    const SolverParameters& solver = m_parameters.solver;
-    const double wrinkled_at = onset();
-    if (wrinkled_at < 0) return solver.viscosity;
-    // Shorter wrinkles are stiffer against a damping of the same size, by the square of their length; a
-    // smaller power was found to cost as little and to change less.
-    constexpr double kBaseWaveLength = 0.3754;  // of the base case
-    constexpr double kPower = 1.5;
-    constexpr double kShortest = 4;  // as far as it was measured: a skin of 0.01
-    const double shortness = std::clamp(kBaseWaveLength / expected_wave_length(m_parameters), 1.0, kShortest);
-    const double late = solver.late_viscosity * std::pow(shortness, kPower);
-    const double progress = (m_state.course.shrinkage - kFrom * wrinkled_at) / (kOver * wrinkled_at);
-    return std::lerp(solver.viscosity, late, std::clamp(progress, 0.0, 1.0));
-}
-
 AlignedArray<double> DryingPath::predict(double step) const {
     // Lagrange extrapolation through the last two or three equilibria.
     const auto& u = m_state.displacements;
-    AlignedArray<double> result = u[0];
-    if (m_state.past_steps.empty()) return result;
+    if (m_state.past_steps.empty()) return u[0];
     const double h0 = m_state.past_steps[0];
     if (m_state.past_steps.size() == 1) {
         const double factor = step / h0;
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] += factor * (u[0][i] - u[1][i]);
-        return result;
+        return make_array(u[0].size(), [&](std::size_t i) { return u[0][i] + factor * (u[0][i] - u[1][i]); });
     }
     const double h1 = m_state.past_steps[1];
     const double c0 = (step + h0) * (step + h0 + h1) / (h0 * (h0 + h1));
     const double c1 = -step * (step + h0 + h1) / (h0 * h1);
     const double c2 = step * (step + h0) / ((h0 + h1) * h1);
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = c0 * u[0][i] + c1 * u[1][i] + c2 * u[2][i];
-    return result;
+    return make_array(u[0].size(), [&](std::size_t i) { return c0 * u[0][i] + c1 * u[1][i] + c2 * u[2][i]; });
 }
 
 AlignedArray<double> DryingPath::drift(double step) const {
@@ -141,13 +131,11 @@ AlignedArray<double> DryingPath::drift(double step) const {
     // Where wrinkles are as long as the slow functions, the latter would leave them undamped.
     constexpr double kLongestWave = 1;
     const auto& u = m_state.displacements;
-    AlignedArray<double> result = u[0];
-    if (m_state.past_steps.empty() || expected_wave_length(m_parameters) > kLongestWave) return result;
+    if (m_state.past_steps.empty() || expected_wave_length(m_parameters) > kLongestWave) return u[0];
     const double factor = std::min(kMostGrowth, step / m_state.past_steps[0]);
     const AlignedArray<double> motion =
         slow_motion(*m_slow, m_multigrid->order(), static_cast<std::size_t>(m_mesh.layers), u[1], u[0]);
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] += factor * motion[i];
-    return result;
+    return make_array(u[0].size(), [&](std::size_t i) { return u[0][i] + factor * motion[i]; });
 }
 
 bool DryingPath::goes_back(const CourseIncrement& increment) const {
@@ -163,7 +151,8 @@ bool DryingPath::goes_back(const CourseIncrement& increment) const {
 
 bool DryingPath::attempt(double target, const RunContext& context) {
     // Of the course's state nothing is kept until the increment is accepted, so a shorter one starts afresh.
-    CourseIncrement increment = m_course->increment(m_state.course, target, m_state.next_step, positions());
+    CourseIncrement increment =
+        m_course->increment(m_state.course, target, m_state.next_step, [this] { return positions(); });
     const double step = increment.change;
     StepRecord& record = m_state.pending;
     if (step < kUnmoved) {
@@ -178,7 +167,8 @@ bool DryingPath::attempt(double target, const RunContext& context) {
     }
     const AlignedArray<double>& start = m_state.displacements.front();
     const AlignedArray<double> drifted = goes_back(increment) ? start : drift(step);
-    const Damping damping{&drifted, viscosity() * m_parameters.drying.shrinkage / step};
+    const Damping damping{
+        &drifted, viscosity(m_parameters, shrinkage(), onset()) * m_parameters.drying.shrinkage / step};
     const DryingField drying = walled(increment.field);
     m_elasticity->set_drying(with_set(drying, m_state.set, m_mesh.layers), drying);
     AlignedArray<double> displacement = predict(step);
@@ -276,11 +266,19 @@ std::vector<Vec3> DryingPath::positions() const {
     return result;
 }
 
+std::vector<Vec3> DryingPath::skin_positions() const {
+    std::vector<Vec3> skin = m_skin_rest;
+    const AlignedArray<double>& u = m_state.displacements.front();
+    const auto layers = static_cast<std::size_t>(m_mesh.layers);
+    for (std::size_t c = 0; c < skin.size(); ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+            skin[m_multigrid->order().vertex_of_solver[c]][static_cast<int>(i)] +=
+                u[(3 * c + i + 1) * layers - 1];
+    return skin;
+}
+
 std::vector<double> DryingPath::skin_depth() const {
-    std::vector<Vec3> skin(m_mesh.columns());
-    const std::vector<Vec3> nodes = positions();
-    for (std::size_t c = 0; c < skin.size(); ++c) skin[c] = nodes[(c + 1) * m_mesh.layers - 1];
-    return geometry::depth_below_smooth_surface(*m_slow, m_skin_rest, skin, m_mesh.faces());
+    return geometry::depth_below_smooth_surface(*m_slow, m_skin_rest, skin_positions(), m_mesh.faces());
 }
 
 double DryingPath::root_mean_square_depth() const {

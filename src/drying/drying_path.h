@@ -76,6 +76,7 @@ class DryingPath {
 
     const geometry::LayeredMesh& mesh() const { return m_mesh; }
     Elasticity& elasticity() { return *m_elasticity; }
+    const Elasticity& elasticity() const { return *m_elasticity; }
     NewtonSolver& newton() { return *m_newton; }
     /// Null where the skin may pass through itself.
     SkinContact* contact() { return m_contact.get(); }
@@ -96,6 +97,8 @@ class DryingPath {
 
     /// Nodes now: [column * layers + k], in the brick's order.
     std::vector<geometry::Vec3> positions() const;
+    /// The outermost of them: the skin's vertices, in the brick's order.
+    std::vector<geometry::Vec3> skin_positions() const;
     /// Depth of the skin's vertices below the smooth surface, in the brick's order.
     std::vector<double> skin_depth() const;
 
@@ -110,7 +113,6 @@ class DryingPath {
     AlignedArray<double> predict(double step) const;
     /// Whether the flesh swells where it last shrank, or the other way round.
     bool goes_back(const CourseIncrement& increment) const;
-    double viscosity() const;
     double root_mean_square_depth() const;
 
     geometry::LayeredMesh m_mesh;

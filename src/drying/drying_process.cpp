@@ -17,7 +17,8 @@ namespace windfall::drying {
 
 namespace {
 
-constexpr double kSecondsBetweenCheckpoints = 20;
+// Of the time, writing checkpoints takes no more: those of millions of unknowns take seconds.
+constexpr double kCheckpointShare = 0.02;
 
 std::int64_t peak_memory_bytes() {
     rusage usage{};
@@ -74,8 +75,9 @@ class Run {
                 if (m_artist_skin) m_artist_skin->carry(frame);
                 m_sink.add_frame(frame);
                 ++m_frames_done;
-                save();
+                save_when_due();
             }
+            save();
         } catch (const Cancelled&) {
             save();
             throw;
@@ -127,13 +129,19 @@ class Run {
                         step.shrinkage, step.newton_steps, step.linear_iterations, step.failures,
                         step.depth_rms / m_parameters.fruit.skin_thickness, step.elastic_energy,
                         step.viscous_work / step.elastic_energy, step.smallest_volume_ratio));
-        if (seconds() - m_last_checkpoint_s > kSecondsBetweenCheckpoints) save();
+        save_when_due();
+    }
+
+    void save_when_due() {
+        if (kCheckpointShare * (seconds() - m_saved_at_s) >= m_saving_took_s) save();
     }
 
     void save() {
-        m_last_checkpoint_s = seconds();
+        const double began_s = seconds();
         m_sink.set_summary(summary());
         m_sink.save_checkpoint(to_bytes({m_path.state(), m_frames_done, m_elapsed_before_s + seconds()}));
+        m_saved_at_s = seconds();
+        m_saving_took_s = m_saved_at_s - began_s;
     }
 
     nlohmann::json summary() {
@@ -190,7 +198,8 @@ class Run {
     std::unique_ptr<ArtistSkin> m_artist_skin;  ///< null where the take has the solver's skin
     int m_frames_done = 0;
     double m_elapsed_before_s = 0;
-    double m_last_checkpoint_s = 0;
+    double m_saved_at_s = 0;
+    double m_saving_took_s = 0;
     TimeLeft m_time_left;
 };
 

@@ -8,6 +8,10 @@
 
 namespace windfall::drying {
 
+namespace {
+constexpr std::size_t kBlock = 256;
+}  // namespace
+
 LayerModuli layer_moduli(int flesh_layers, int layers, double gamma, double bulk_ratio) {
     constexpr double kFleshShear = 2;  // mu = 2 C0, C0 of the flesh is the unit of stress
     LayerModuli moduli;
@@ -50,10 +54,16 @@ Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& mod
                 m_rest[(3 * c + i) * layers + k] = mesh.nodes[vertex * layers + k][static_cast<int>(i)];
         }
     }
+    std::vector<double> shares(mesh.brick.quads.size() * layers);
+    parallel_blocks(mesh.brick.quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t q = begin; q < end; ++q)
+            for (std::size_t k = 0; k < layers; ++k)
+                shares[q * layers + k] = hexahedron_volume(element_nodes(mesh, q, static_cast<int>(k))) / 8;
+    });
     double total = 0;
     for (std::size_t q = 0; q < mesh.brick.quads.size(); ++q) {
-        for (int k = 0; k < mesh.layers; ++k) {
-            const double share = hexahedron_volume(element_nodes(mesh, q, k)) / 8;
+        for (std::size_t k = 0; k < layers; ++k) {
+            const double share = shares[q * layers + k];
             for (const std::int32_t vertex : mesh.brick.quads[q]) {
                 double* mass = m_mass.data() + order.solver_of_vertex[vertex] * layers;
                 mass[k] += share;
@@ -69,7 +79,6 @@ Elasticity::Elasticity(const geometry::LayeredMesh& mesh, const LayerModuli& mod
 void Elasticity::set_drying(const DryingField& stress_free, const DryingField& drying_alone) {
     const ColumnOrder& order = m_multigrid.order();
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
-    constexpr std::size_t kBlock = 256;
     parallel_blocks(order.quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t q = begin; q < end; ++q) {
             double* out = m_dehydration.data() + q * 7 * layers;
@@ -94,7 +103,6 @@ Eigen::Vector3d Fibres::relaxed(std::size_t quad, const Eigen::Matrix3d& drying)
 void Elasticity::set_fibres(const DryingField& field) {
     const ColumnOrder& order = m_multigrid.order();
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
-    constexpr std::size_t kBlock = 256;
     parallel_blocks(order.quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t q = begin; q < end; ++q) {
             const auto quad = static_cast<std::size_t>(order.brick_quad[q]);
@@ -147,6 +155,17 @@ ElasticEnergy Elasticity::energy(const AlignedArray<double>& displacement,
     return result;
 }
 
+AlignedArray<double> Elasticity::volumes(const AlignedArray<double>& displacement) const {
+    const std::size_t quads = m_multigrid.order().quads.size();
+    AlignedArray<double> result(quads * kVolumeEntries * m_multigrid.layers());
+    const ElementArrays elements = arrays();
+    parallel_blocks(quads, kBlock, [&](std::size_t begin, std::size_t end) {
+        m_multigrid.table().volumes(elements, displacement.data(), result.data(),
+                                    {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)});
+    });
+    return result;
+}
+
 void Elasticity::assemble(const AlignedArray<double>& displacement, double geometric, double mass_factor) {
     const ElementArrays elements = arrays();
     m_multigrid.set_matrix_zero();
@@ -161,11 +180,13 @@ void Elasticity::assemble(const AlignedArray<double>& displacement, double geome
     });
     if (mass_factor == 0) return;
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
-    for (std::int32_t c = 0; c < order.column_count(); ++c)
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t k = 0; k < layers; ++k)
-                matrix.diagonal[(static_cast<std::size_t>(c) * 18 + 9 + 4 * i) * layers + k] +=
-                    static_cast<float>(mass_factor * m_mass[c * layers + k]);
+    parallel_blocks(m_mass.size() / layers, kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t k = 0; k < layers; ++k)
+                    matrix.diagonal[(c * 18 + 9 + 4 * i) * layers + k] +=
+                        static_cast<float>(mass_factor * m_mass[c * layers + k]);
+    });
 }
 
 }  // namespace windfall::drying

@@ -54,6 +54,9 @@ class Elasticity {
     /// Energy; with `force` not null sets it to the energy's gradient.
     ElasticEnergy energy(const AlignedArray<double>& displacement, AlignedArray<double>* force) const;
 
+    /// Volumes of the elements: [quad][kVolumeEntries][layers], quads in the multigrid's order.
+    AlignedArray<double> volumes(const AlignedArray<double>& displacement) const;
+
     /// Sets the multigrid's matrix to the energy's second derivatives; `geometric` 1: exactly, less: stress
     /// terms scaled down. Then adds `mass_factor` times the mass matrix.
     void assemble(const AlignedArray<double>& displacement, double geometric, double mass_factor);
@@ -64,6 +67,7 @@ class Elasticity {
     const AlignedArray<float>& mean_weights() const { return m_mean_weights; }
     std::size_t size() const { return m_multigrid.vector_size(); }
     Multigrid& multigrid() { return m_multigrid; }
+    const Multigrid& multigrid() const { return m_multigrid; }
 
   private:
     ElementArrays arrays() const;

@@ -1,7 +1,6 @@
 #pragma once
-// One hexahedron, plainly: the twin that the SIMD kernels are tested against, and what frames are measured
-// with. 8 nodes (0..3 below, 4..7 above, counter-clockwise from outside), 2 x 2 x 2 integration points, mean
-// dilatation.
+// One hexahedron, plainly: the twin that the SIMD kernels are tested against. 8 nodes (0..3 below, 4..7
+// above, counter-clockwise from outside), 2 x 2 x 2 integration points, mean dilatation.
 #include <Eigen/Core>
 #include <array>
 
@@ -35,7 +34,7 @@ struct HexResponse {
 };
 HexResponse hexahedron_response(const HexNodes& rest, const HexNodes& now, const HexMaterial& material);
 
-/// State of an element for pictures and measures.
+/// Volumes and stress of an element.
 struct HexState {
     double rest_volume = 0;
     double volume = 0;

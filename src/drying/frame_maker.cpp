@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drying/element.h"
-
 namespace windfall::drying {
 
 using geometry::LayeredMesh;
@@ -46,32 +44,34 @@ std::vector<double> to_vertices(const geometry::BrickSurface& brick, const std::
     return sums;
 }
 
-SolidSums sum_elements(const DryingPath& path, const std::vector<Vec3>& nodes) {
+SolidSums sum_elements(const DryingPath& path) {
     constexpr std::size_t kBlock = 256;  // quads
     const LayeredMesh& mesh = path.mesh();
     const DryingField drying = path.stress_free();
-    const LayerModuli& moduli = path.moduli();
-    const std::vector<double> stiffening = path.flesh_stiffening();
-    LayeredMesh now = mesh;
-    now.nodes = nodes;
-    const std::size_t quads = mesh.brick.quads.size();
+    const AlignedArray<double> volumes = path.elasticity().volumes(path.state().displacements.front());
+    const std::vector<std::int32_t>& brick_quad = path.elasticity().multigrid().order().brick_quad;
+    const auto layers = static_cast<std::size_t>(mesh.layers);
+    const std::size_t quads = brick_quad.size();
     std::vector<double> volume_ratio(quads);
     std::vector<double> pressure(quads);
     std::vector<SolidSums> blocks((quads + kBlock - 1) / kBlock);
-    const auto add = [&](SolidSums& sums, std::size_t q, int k) {
-        const double factor = stiffening.empty() || k >= mesh.flesh_layers ? 1 : stiffening[q];
-        const HexMaterial material{factor * moduli.shear[k], factor * moduli.bulk[k], drying(q, k)};
-        const HexState state =
-            hexahedron_state(element_nodes(mesh, q, k), element_nodes(now, q, k), material);
-        (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += state.rest_volume;
-        (k < mesh.flesh_layers ? sums.flesh_now : sums.skin_now) += state.volume;
-        sums.dried_volume += state.rest_volume * state.drying_volume_ratio;
-        sums.smallest_total =
-            std::min(sums.smallest_total, state.smallest_elastic * state.drying_volume_ratio);
-        sums.smallest_elastic = std::min(sums.smallest_elastic, state.smallest_elastic);
-        sums.largest_elastic = std::max(sums.largest_elastic, state.largest_elastic);
-        volume_ratio[q] = state.elastic_volume_ratio;  // that of the outermost layer stays
-        pressure[q] = state.pressure;
+    const auto add = [&](SolidSums& sums, std::size_t solver_quad, int k) {
+        const double* entries = volumes.data() + solver_quad * kVolumeEntries * layers + k;
+        const double fresh = entries[0];
+        const double now = entries[layers];
+        const double smallest = entries[2 * layers];
+        const double largest = entries[3 * layers];
+        const auto q = static_cast<std::size_t>(brick_quad[solver_quad]);
+        const double dried = drying(q, k).determinant();
+        (k < mesh.flesh_layers ? sums.flesh_fresh : sums.skin_fresh) += fresh;
+        (k < mesh.flesh_layers ? sums.flesh_now : sums.skin_now) += now;
+        sums.dried_volume += fresh * dried;
+        sums.smallest_total = std::min(sums.smallest_total, smallest);
+        sums.smallest_elastic = std::min(sums.smallest_elastic, smallest / dried);
+        sums.largest_elastic = std::max(sums.largest_elastic, largest / dried);
+        if (k + 1 < mesh.layers) return;
+        volume_ratio[q] = now / (fresh * dried);
+        pressure[q] = -path.moduli().bulk[k] * (volume_ratio[q] - 1);
     };
     parallel_blocks(quads, kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t q = begin; q < end; ++q)
@@ -99,11 +99,9 @@ take::TakeMesh skin_mesh(const LayeredMesh& mesh) {
 
 take::Frame make_frame(const DryingPath& path, const DryingParameters& parameters, int index) {
     const LayeredMesh& mesh = path.mesh();
-    const std::vector<Vec3> nodes = path.positions();
-    const SolidSums sums = sum_elements(path, nodes);
+    const SolidSums sums = sum_elements(path);
     const std::vector<Vec3> rest = mesh.level_positions(mesh.layers);
-    std::vector<Vec3> skin(mesh.columns());
-    for (std::size_t c = 0; c < skin.size(); ++c) skin[c] = nodes[(c + 1) * mesh.layers - 1];
+    const std::vector<Vec3> skin = path.skin_positions();
     const auto faces = mesh.faces();
     const std::vector<double> fresh_areas = geometry::vertex_areas(rest, faces);
     const std::vector<double> areas = geometry::vertex_areas(skin, faces);

@@ -103,9 +103,10 @@ DryingField MoistureCourse::field_of(std::vector<double> shrinkages) const {
 DryingField MoistureCourse::field(const CourseState& state) const { return field_of(shrinkages(state)); }
 
 CourseIncrement MoistureCourse::increment(const CourseState& from, double target, double largest_change,
-                                          const std::vector<Vec3>& nodes) const {
+                                          const BodyNodes& body) const {
     constexpr double kNearlyAll = 0.9;  // of the change that is allowed: near enough to stop
     constexpr double kLittleMore = 1.02;
+    const std::vector<Vec3> nodes = body();
     const FleshConductances conductances = m_cells.conductances(nodes);
     const std::vector<double> areas = m_cells.skin_areas(nodes);
     const FleshDiffusion diffusion(m_cells, conductances,

@@ -22,7 +22,7 @@ class MoistureCourse : public DryingCourse {
 
     CourseState start() const override;
     CourseIncrement increment(const CourseState& from, double target, double largest_change,
-                              const std::vector<geometry::Vec3>& nodes) const override;
+                              const BodyNodes& body) const override;
     DryingField field(const CourseState& state) const override;
     std::map<std::string, double> measures(const CourseState& state) const override;
     std::vector<double> skin_moisture(const CourseState& state) const override;

@@ -95,7 +95,8 @@ void NewtonSolver::evaluate(State& state, const Damping& damping, const State* f
     state.force_norm = elastic.valid() ? norm(state.force) : std::numeric_limits<double>::infinity();
 }
 
-double NewtonSolver::potential(const AlignedArray<double>& displacement, const Damping& damping) const {
+double NewtonSolver::potential(const AlignedArray<double>& displacement, const Damping& damping) {
+    const PhaseTimer timer(m_times.energy_s);
     const ElasticEnergy elastic = m_elasticity.energy(displacement, nullptr);
     if (!elastic.valid()) return std::numeric_limits<double>::infinity();
     return elastic.energy + damping_energy(displacement, damping, nullptr) +

@@ -56,7 +56,7 @@ class NewtonSolver {
                           const NewtonSettings& settings, const RunContext& context);
 
     /// Potential at a displacement; infinite where elements are inverted.
-    double potential(const AlignedArray<double>& displacement, const Damping& damping) const;
+    double potential(const AlignedArray<double>& displacement, const Damping& damping);
 
     const PhaseTimes& times() const { return m_times; }
     ConjugateGradients& linear_solver() { return m_linear; }

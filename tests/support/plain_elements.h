@@ -40,6 +40,18 @@ inline std::vector<KernelBuild> kernel_builds() {
 
 inline std::string name_of(const testing::TestParamInfo<KernelBuild>& info) { return info.param.name; }
 
+/// The mesh with its nodes moved by a displacement in the solver's order.
+inline geometry::LayeredMesh displaced(geometry::LayeredMesh mesh, const drying::ColumnOrder& order,
+                                       const AlignedArray<double>& u) {
+    const auto layers = static_cast<std::size_t>(mesh.layers);
+    for (std::size_t c = 0; c < mesh.columns(); ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < layers; ++k)
+                mesh.nodes[order.vertex_of_solver[c] * layers + k][static_cast<int>(i)] +=
+                    u[(3 * c + i) * layers + k];
+    return mesh;
+}
+
 /// Unknowns of an element's 24 components in the order of the solver; -1 on the stone.
 using ElementUnknowns = std::array<Eigen::Index, 24>;
 

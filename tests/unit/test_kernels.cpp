@@ -49,6 +49,26 @@ TEST_P(Kernels, TangentAgreesWithThePlainElement) {
     test::expect_tangent(m_elasticity, m_displacement, plain());
 }
 
+TEST_P(Kernels, VolumesAgreeWithThePlainElement) {
+    const AlignedArray<double> volumes = m_elasticity.volumes(m_displacement);
+    const ColumnOrder& order = m_multigrid.order();
+    const geometry::LayeredMesh now = test::displaced(m_mesh, order, m_displacement);
+    const auto layers = static_cast<std::size_t>(m_mesh.layers);
+    for (std::size_t q = 0; q < order.quads.size(); ++q)
+        for (std::size_t k = 0; k < layers; ++k) {
+            const auto quad = static_cast<std::size_t>(order.brick_quad[q]);
+            const auto layer = static_cast<int>(k);
+            const HexState state = hexahedron_state(element_nodes(m_mesh, quad, layer),
+                                                    element_nodes(now, quad, layer), HexMaterial{});
+            const double* entry = volumes.data() + q * kVolumeEntries * layers + k;
+            ASSERT_NEAR(entry[0], state.rest_volume, 1e-13);
+            ASSERT_NEAR(entry[layers], state.volume, 1e-13);
+            ASSERT_NEAR(entry[2 * layers], state.smallest_elastic, 1e-11);
+            ASSERT_NEAR(entry[3 * layers], state.largest_elastic, 1e-11);
+            ASSERT_LT(state.smallest_elastic, state.largest_elastic);
+        }
+}
+
 TEST_P(Kernels, MassIsAddedToTheDiagonalOnly) {
     AlignedArray<float> x(m_elasticity.size());
     AlignedArray<float> without(m_elasticity.size());

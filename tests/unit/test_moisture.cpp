@@ -34,6 +34,10 @@ DryingParameters by_the_hour() {
     return p;
 }
 
+BodyNodes nodes_of(const LayeredMesh& mesh) {
+    return [&mesh] { return mesh.nodes; };
+}
+
 struct Fruit {
     DryingParameters parameters;
     LayeredMesh mesh = flesh_ball(8, 6, kStone);
@@ -45,7 +49,7 @@ struct Fruit {
     CourseState at(double hours) const {
         CourseState state = course.start();
         while (state.parameter < hours)
-            state = course.increment(state, hours, parameters.solver.max_step, mesh.nodes).to;
+            state = course.increment(state, hours, parameters.solver.max_step, nodes_of(mesh)).to;
         return state;
     }
     Vec3 middle(std::size_t quad) const {
@@ -100,7 +104,7 @@ TEST(Moisture, LedgerClosesAndStartsWithTheRightMass) {
     EXPECT_NEAR(fruit.course.ledger(state).start_mass_kg(), volume / (0.8 / 1000 + 0.2 / 1550), 1e-9);
     double lost = 0;
     while (state.parameter < 60) {
-        state = fruit.course.increment(state, 60, 0.01, fruit.mesh.nodes).to;
+        state = fruit.course.increment(state, 60, 0.01, nodes_of(fruit.mesh)).to;
         const water::WaterLedger ledger = fruit.course.ledger(state);
         EXPECT_LT(std::abs(ledger.error()), 1e-9);
         EXPECT_GT(ledger.lost_kg(), lost);
@@ -206,16 +210,17 @@ TEST(Moisture, IncrementsStopAtTheAllowedChangeAndLeaveNothingBehind) {
     const Fruit fruit(by_the_hour());
     const CourseState start = fruit.at(3);
     const CourseState copy = start;
-    const CourseIncrement large = fruit.course.increment(start, 100, 0.01, fruit.mesh.nodes);
+    const CourseIncrement large = fruit.course.increment(start, 100, 0.01, nodes_of(fruit.mesh));
     EXPECT_LE(large.change, 0.0103);
     EXPECT_GE(large.change, 0.008);
     EXPECT_FALSE(large.cut_at_target);
-    const CourseIncrement small = fruit.course.increment(start, 100, 0.002, fruit.mesh.nodes);
+    const CourseIncrement small = fruit.course.increment(start, 100, 0.002, nodes_of(fruit.mesh));
     EXPECT_LE(small.change, 0.0021);
     EXPECT_LT(small.to.parameter, large.to.parameter);
     EXPECT_EQ(start.values, copy.values);
-    EXPECT_EQ(fruit.course.increment(start, 100, 0.01, fruit.mesh.nodes).to.values, large.to.values);
-    const CourseIncrement cut = fruit.course.increment(start, start.parameter + 0.01, 0.01, fruit.mesh.nodes);
+    EXPECT_EQ(fruit.course.increment(start, 100, 0.01, nodes_of(fruit.mesh)).to.values, large.to.values);
+    const CourseIncrement cut =
+        fruit.course.increment(start, start.parameter + 0.01, 0.01, nodes_of(fruit.mesh));
     EXPECT_TRUE(cut.cut_at_target);
     EXPECT_EQ(cut.to.parameter, start.parameter + 0.01);
 }
