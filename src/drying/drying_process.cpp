@@ -17,8 +17,10 @@ namespace windfall::drying {
 
 namespace {
 
-// Of the time, writing checkpoints takes no more: those of millions of unknowns take seconds.
+// Writing checkpoints takes no more of the time, those of millions of unknowns taking seconds, unless that
+// would put too much at risk.
 constexpr double kCheckpointShare = 0.02;
+constexpr double kLongestWithoutCheckpoint_s = 300;
 
 std::int64_t peak_memory_bytes() {
     rusage usage{};
@@ -75,9 +77,11 @@ class Run {
                 if (m_artist_skin) m_artist_skin->carry(frame);
                 m_sink.add_frame(frame);
                 ++m_frames_done;
-                save_when_due();
+                if (m_frames_done == static_cast<int>(m_frames.size()))
+                    save();
+                else
+                    save_when_due();
             }
-            save();
         } catch (const Cancelled&) {
             save();
             throw;
@@ -133,7 +137,8 @@ class Run {
     }
 
     void save_when_due() {
-        if (kCheckpointShare * (seconds() - m_saved_at_s) >= m_saving_took_s) save();
+        const double since_s = seconds() - m_saved_at_s;
+        if (kCheckpointShare * since_s >= m_saving_took_s || since_s > kLongestWithoutCheckpoint_s) save();
     }
 
     void save() {

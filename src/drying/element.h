@@ -1,5 +1,6 @@
 #pragma once
-// One hexahedron, plainly: the twin that the SIMD kernels are tested against. 8 nodes (0..3 below, 4..7
+// One hexahedron, plainly: the twin that the SIMD kernels are tested against, and what masses, moisture and
+// plastic set need of it. 8 nodes (0..3 below, 4..7
 // above, counter-clockwise from outside), 2 x 2 x 2 integration points, mean dilatation.
 #include <Eigen/Core>
 #include <array>

@@ -148,6 +148,7 @@ bool Multigrid::set_up_smoother(Level& level) {
     const SmootherArrays smoother = level.smoother();
     std::atomic<bool> definite{true};
     parallel_blocks(level.columns(), kBlockColumns, [&](std::size_t begin, std::size_t end) {
+        if (!definite) return;
         const Range columns = range_of(begin, end);
         if (m_table.pack_inverses(matrix, smoother, columns))
             m_table.pack_lower(matrix, smoother, columns);

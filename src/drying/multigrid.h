@@ -38,7 +38,8 @@ class Multigrid {
     void set_matrix_zero();
 
     /// Makes coarse matrices and smoothers from the finest matrix. False when a column's own block is not
-    /// positive definite: then neither is the matrix, and `apply` must not be called.
+    /// positive definite: then neither is the matrix, and `apply` must not be called before a set-up that
+    /// succeeds.
     bool set_up();
 
     /// x = one cycle for A x = b, from zero; nearly symmetric and, where A is, positive definite.

@@ -15,7 +15,7 @@ class FrameSink {
     /// The mesh that the following frames move; before the first frame of a fresh run.
     virtual void add_mesh(const TakeMesh& mesh) = 0;
 
-    /// A frame; one with the index of an earlier frame replaces it (a resumed run may repeat the last one).
+    /// A frame; one with the index of an earlier frame replaces it (a resumed run may repeat the last ones).
     virtual void add_frame(const Frame& frame) = 0;
 
     /// Everything that a process needs to go on from here, to the same bits. Replaces the checkpoint before.

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include "drying/multigrid.h"
+#include "support/plain_elements.h"
 #include "support/small_body.h"
 
 namespace windfall::drying {
@@ -97,13 +98,13 @@ Eigen::VectorXd to_eigen(const AlignedArray<float>& a) {
     return result;
 }
 
-class ColumnKernels : public testing::TestWithParam<int> {
+class ColumnKernels : public testing::TestWithParam<test::KernelBuild> {
   protected:
-    const KernelTable& m_table = kernels(GetParam());
+    const KernelTable& m_table = *GetParam().table;
 };
 
 TEST_P(ColumnKernels, ProductIsThatOfTheSymmetricMatrix) {
-    RandomLevel level({3, 4, 2}, GetParam());
+    RandomLevel level({3, 4, 2}, GetParam().layers);
     const AlignedArray<float> x = random_floats(level.size(), 1);
     AlignedArray<float> y(x.size());
     m_table.product(level.matrix(), x.data(), y.data(), {0, level.order.column_count()});
@@ -126,9 +127,9 @@ struct Smoother {
 
 /// Forward sweep over a matrix without couplings of columns: each column's inverse times b.
 TEST_P(ColumnKernels, InvertedBlocksAreInverses) {
-    RandomLevel level({2, 2, 2}, GetParam());
+    RandomLevel level({2, 2, 2}, GetParam().layers);
     level.lower.set_zero();
-    const int layers = GetParam();
+    const int layers = GetParam().layers;
     const std::size_t block_size = 3 * static_cast<std::size_t>(layers);
     // Columns of other magnitudes, and in some of them layers like those of a thin stiff skin: a thousand
     // times as stiff, the coupling to the next layer nearly as large as the layers' own blocks.
@@ -169,8 +170,8 @@ TEST_P(ColumnKernels, InvertedBlocksAreInverses) {
 }
 
 TEST_P(ColumnKernels, IndefiniteBlocksAreRefused) {
-    RandomLevel level({2, 2, 2}, GetParam());
-    const int layers = GetParam();
+    RandomLevel level({2, 2, 2}, GetParam().layers);
+    const int layers = GetParam().layers;
     Smoother smoother(level);
     const Range all = {0, level.order.column_count()};
     for (const std::int32_t column : {0, 17, all.end - 1})
@@ -185,8 +186,8 @@ TEST_P(ColumnKernels, IndefiniteBlocksAreRefused) {
 }
 
 TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
-    RandomLevel level({3, 2, 2}, GetParam());
-    const int layers = GetParam();
+    RandomLevel level({3, 2, 2}, GetParam().layers);
+    const int layers = GetParam().layers;
     const Range all = {0, level.order.column_count()};
     Smoother made(level);
     const SmootherArrays smoother = made.arrays();
@@ -216,9 +217,9 @@ TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
 }
 
 TEST_P(ColumnKernels, CoarseMatrixIsGalerkins) {
-    RandomLevel fine({4, 8, 4}, GetParam());
-    RandomLevel coarse(geometry::coarser(fine.brick.cells), GetParam());
-    const int layers = GetParam();
+    RandomLevel fine({4, 4, 2}, GetParam().layers);
+    RandomLevel coarse(geometry::coarser(fine.brick.cells), GetParam().layers);
+    const int layers = GetParam().layers;
     const auto parents = geometry::brick_parents(fine.brick, coarse.brick);
     Eigen::MatrixXd prolongation = Eigen::MatrixXd::Zero(fine.size(), coarse.size());
     std::vector<std::array<std::int32_t, 4>> parent(parents.size());
@@ -269,7 +270,7 @@ TEST_P(ColumnKernels, CoarseMatrixIsGalerkins) {
     EXPECT_EQ(to_eigen(cleared).norm(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layers, ColumnKernels, testing::Values(8, 16));
+INSTANTIATE_TEST_SUITE_P(Builds, ColumnKernels, testing::ValuesIn(test::kernel_builds()), test::name_of);
 
 }  // namespace
 }  // namespace windfall::drying

@@ -112,7 +112,8 @@ struct BatchInverse {
         for (int k = L - 2; k >= 0; --k) {
             coupling[k] = times(factor[k], inverse[k + 1]);
             const Batch3x3 added = times_transposed(coupling[k], factor[k]);
-            for (int i = 0; i < 9; ++i) inverse[k].at[i] += added.at[i];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j <= i; ++j) inverse[k](j, i) = inverse[k](i, j) += added(i, j);
         }
         largest = inverse[0](0, 0);
         for (int k = 0; k < L; ++k)
@@ -121,10 +122,11 @@ struct BatchInverse {
                 largest = entry > largest ? entry : largest;
             }
         store_pairs(inverse, coupling);
+        bool definite = true;
         for (int size = 4, vector = 18; size <= L; size *= 2, vector += 9)
             for (int begin = 0; begin < L; begin += size)
-                store_group(inverse, factor, begin, begin + size, vector);
-        return true;
+                definite = store_group(inverse, factor, begin, begin + size, vector) && definite;
+        return definite;
     }
 
   private:
@@ -138,10 +140,11 @@ struct BatchInverse {
                 }
     }
 
-    /// W of the layers in [begin, end).
-    void store_group(const Batch3x3 inverse[L], const Batch3x3 factor[L], int begin, int end, int vector) {
+    /// W of the layers in [begin, end). False where rounding has left a block indefinite.
+    bool store_group(const Batch3x3 inverse[L], const Batch3x3 factor[L], int begin, int end, int vector) {
         const int middle = (begin + end) / 2 - 1;
         const BatchFactors f(inverse[middle]);
+        if (!f.positive()) return false;
         const Batch root[3] = {square_roots(f.d[0]), square_roots(f.d[1]), square_roots(f.d[2])};
         const Batch zero = root[0] - root[0];
         Batch3x3 w = {{root[0], zero, zero, f.l10 * root[0], root[1], zero, f.l20 * root[0], f.l21 * root[1],
@@ -163,6 +166,7 @@ struct BatchInverse {
             w = times_transposed(inverse[k], way);
             store(k);
         }
+        return true;
     }
 };
 

@@ -64,12 +64,12 @@ struct TransferArrays {
 struct SmootherArrays {
     std::uint16_t* packed;
     float matrix_scale;     ///< a power of two: lower blocks are stored times it
-    float* inverse_factor;  ///< [column] takes the stored inverse to the inverse, over matrix_scale
+    float* inverse_factor;  ///< [column] 1 / (scale of the stored inverse, matrix_scale)
 };
 
 /// Vectors of half precision that a column's inverse takes: 18 for pairs of layers, 9 more for each of the
-/// group sizes 4, 8, ..., `layers`.
-constexpr int inverse_vectors(int layers) {
+/// group sizes 4, 8, ..., `layers`. Static: no build's copy may become that of the whole program.
+static constexpr int inverse_vectors(int layers) {
     int vectors = 18;
     for (int size = 4; size <= layers; size *= 2) vectors += 9;
     return vectors;
