@@ -1,5 +1,6 @@
 #include "drying/frame_maker.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
