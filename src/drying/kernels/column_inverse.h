@@ -174,9 +174,8 @@ struct BatchInverse {
 constexpr int first_index(int bit, int k) { return (k & bit) == 0 ? k : 16 + (k ^ bit); }
 constexpr int second_index(int bit, int k) { return (k & bit) == 0 ? k | bit : 16 + k; }
 
-template <int bit>
+template <int b>
 inline void transpose_stage(LaneTypes<16>::F rows[16]) {
-    constexpr int b = bit;
     for (int i = 0; i < 16; ++i) {
         if ((i & b) != 0) continue;
         const LaneTypes<16>::F x = rows[i];
@@ -231,10 +230,9 @@ inline float half_scale_root(float largest) {
     return __builtin_ldexpf(1.0F, (13 - exponent) >> 1);
 }
 
-/// Lane k of the result is lane 2 floor(k / 2) + `parity` of `a`.
-template <int parity, class V>
+/// Lane k of the result is lane 2 floor(k / 2) + `p` of `a`.
+template <int p, class V>
 inline V spread_pair(V a) {
-    constexpr int p = parity;
     if constexpr (sizeof(V) / sizeof(a[0]) == 8) {
         return __builtin_shufflevector(a, a, p, p, 2 + p, 2 + p, 4 + p, 4 + p, 6 + p, 6 + p);
     } else {
@@ -243,10 +241,9 @@ inline V spread_pair(V a) {
     }
 }
 
-/// Lane k of the result is lane k xor `bit` of `a`.
-template <int bit, class V>
+/// Lane k of the result is lane k xor `b` of `a`.
+template <int b, class V>
 inline V swap_lanes(V a) {
-    constexpr int b = bit;
     if constexpr (sizeof(V) / sizeof(a[0]) == 8) {
         return __builtin_shufflevector(a, a, 0 ^ b, 1 ^ b, 2 ^ b, 3 ^ b, 4 ^ b, 5 ^ b, 6 ^ b, 7 ^ b);
     } else {
