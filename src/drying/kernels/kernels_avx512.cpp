@@ -13,6 +13,7 @@ namespace windfall::drying::avx512 {
 #include "drying/kernels/element_kernels.h"
 #include "drying/kernels/fibre_kernels.h"
 #include "drying/kernels/volume_kernels.h"
+#include "drying/kernels/transpose.h"
 #include "drying/kernels/column_inverse.h"
 #include "drying/kernels/column_kernels.h"
 #include "drying/kernels/table.h"
