@@ -216,17 +216,17 @@ void Multigrid::smooth(Level& level, const float* b, float* x) {
 }
 
 /// The coarsest level is solved nearly exactly: volume change over the whole fruit is seen there only, and
-/// three plain sweeps instead cost the outer iteration up to twice as many steps. Large levels take two
-/// iterations (a K-cycle: Notay and Vassilevski 2008): near a bifurcation wrinkles move almost freely, and
-/// one cycle of the coarse levels that they live on corrects them by far too little (two cycles without
-/// conjugate gradients are no better). The cycle is thereby not quite linear, which the outer iteration
-/// allows for.
+/// three plain sweeps instead cost the outer iteration up to twice as many steps. The level below the finest,
+/// where it is large, takes two iterations (a K-cycle: Notay and Vassilevski 2008): near a bifurcation
+/// wrinkles move almost freely, and one cycle of the coarse levels that they live on corrects them by far
+/// too little (two cycles without conjugate gradients are no better; nor is it worth its time on a second
+/// level). The cycle is thereby not quite linear, which the outer iteration allows for.
 void Multigrid::solve(std::size_t l, const float* b, float* x) {
     Level& level = *m_levels[l];
     if (l + 1 == m_levels.size())
         krylov(level, b, x, {40, 1e-2},
                [&](const float* defect, float* corrected) { smooth(level, defect, corrected); });
-    else if (level.columns() >= m_krylov_columns)
+    else if (l == 1 && level.columns() >= m_krylov_columns)
         krylov(level, b, x, {2, 0},
                [&](const float* defect, float* corrected) { cycle(l, defect, corrected); });
     else

@@ -13,8 +13,8 @@ namespace windfall::drying {
 
 class Multigrid {
   public:
-    /// Levels below the finest that have at least so many columns take two conjugate gradient iterations
-    /// instead of one cycle. On smaller ones they save less than they cost (docs/performance.md).
+    /// With at least so many columns the level below the finest takes two conjugate gradient iterations
+    /// instead of one cycle. On a smaller one they save less than they cost (docs/performance.md).
     static constexpr std::size_t kKrylovColumns = 8000;
 
     /// `layers`: 8 or 16. Allocates everything; the finest matrix is zero. The cells

@@ -16,6 +16,7 @@ namespace windfall::drying::avx512 {
 #include "drying/kernels/transpose.h"
 #include "drying/kernels/column_inverse.h"
 #include "drying/kernels/column_kernels.h"
+#include "drying/kernels/galerkin.h"
 #include "drying/kernels/table.h"
 // clang-format on
 
