@@ -44,6 +44,9 @@ template <class Body>
 void for_schedule(const Schedule& schedule, const Body& body);
 template <class Body>
 void for_schedule_reversed(const Schedule& schedule, const Body& body);
+/// The same as `for_schedule`; returns the sum of what body(range) returns, in the schedule's order.
+template <class Body>
+double schedule_sum(const Schedule& schedule, const Body& body);
 
 // ---- implementation of the templates ----
 
@@ -71,6 +74,18 @@ void for_schedule_reversed(const Schedule& schedule, const Body& body) {
         const std::vector<Range>& ranges = schedule[colour];
         for_ranges(ranges, [&](std::size_t i) { body(ranges[i]); });
     }
+}
+
+template <class Body>
+double schedule_sum(const Schedule& schedule, const Body& body) {
+    double sum = 0;
+    std::vector<double> parts;
+    for (const auto& ranges : schedule) {
+        parts.resize(ranges.size());
+        for_ranges(ranges, [&](std::size_t i) { parts[i] = body(ranges[i]); });
+        for (const double part : parts) sum += part;
+    }
+    return sum;
 }
 
 }  // namespace windfall::drying

@@ -17,7 +17,10 @@ ConjugateGradients::ConjugateGradients(Multigrid& multigrid, const AlignedArray<
       m_direction(multigrid.vector_size()),
       m_product(multigrid.vector_size()) {}
 
-ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const float* p) const {
+/// Each block's sums in `Lengths`, added in order; `update(i)` changes x and p at i before they are read.
+template <class Update>
+ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const float* p,
+                                                        const Update& update) const {
     constexpr std::size_t kLanes = 8;
     constexpr std::size_t kMassBlock = 256;  // columns
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
@@ -27,6 +30,7 @@ ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const fl
         double sums[3][kLanes] = {};
         for (std::size_t at = begin * 3 * layers; at < end * 3 * layers; at += kLanes) {
             const float* mass = m_mass.data() + at / (3 * layers) * layers + at % layers;
+            for (std::size_t k = 0; k < kLanes; ++k) update(at + k);
             for (std::size_t k = 0; k < kLanes; ++k) {
                 const double weighted_x = static_cast<double>(mass[k]) * x[at + k];
                 const double weighted_p = static_cast<double>(mass[k]) * p[at + k];
@@ -52,7 +56,7 @@ ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const fl
 }
 
 double ConjugateGradients::length(const AlignedArray<float>& x) const {
-    return std::sqrt(lengths(x.data(), x.data()).xx);
+    return std::sqrt(lengths(x.data(), x.data(), [](std::size_t) {}).xx);
 }
 
 LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArray<float>& x, double tolerance,
@@ -70,49 +74,53 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
     float* p = m_direction.data();
     float* q = m_product.data();
     float* px = x.data();
-    for_elements(size, [&](std::size_t i) { r[i] = b[i]; });
+    const float* right = b.data();
+    for_elements(size, [=](std::size_t i) { r[i] = right[i]; });
+    m_direction.set_zero();
+
+    // The step along the last direction is put off until the vectors are gone through for the next one.
+    double step = 0;
+    const auto finish = [&](LinearStatus status) {
+        const auto last = static_cast<float>(step);
+        for_elements(size, [=](std::size_t i) { px[i] += last * p[i]; });
+        result.status = status;
+        return result;
+    };
     double curvature = 0;
     while (result.iterations < max_iterations) {
         context.throw_if_cancelled();
         m_multigrid.apply(r, z);
         const auto [rz, qz] = dots(r, q, z, size);
-        if (!(rz > 0)) {
-            result.status = result.iterations == 0 ? LinearStatus::NotDefinite : LinearStatus::IterationLimit;
-            return result;
+        if (!(rz > 0))
+            return finish(result.iterations == 0 ? LinearStatus::NotDefinite : LinearStatus::IterationLimit);
+        // Conjugate to the last direction, whatever the preconditioner: the half-precision smoother is not
+        // exactly symmetric, and the usual quotient of two rz would not know.
+        const auto beta = result.iterations == 0 ? 0.0F : static_cast<float>(std::max(0.0, -qz / curvature));
+        const auto [xx, xp, pp] = lengths(px, p, [=, last = static_cast<float>(step)](std::size_t i) {
+            px[i] += last * p[i];
+            p[i] = z[i] + beta * p[i];
+        });
+        curvature = m_multigrid.product(p, q);
+        if (m_added) {
+            m_added(p, q);
+            curvature = dot(p, q, size);
         }
-        if (result.iterations == 0) {
-            for_elements(size, [&](std::size_t i) { p[i] = z[i]; });
-        } else {
-            // Conjugate to the last direction, whatever the preconditioner: the half-precision smoother is
-            // not exactly symmetric, and the usual quotient of two rz would not know.
-            const auto beta = static_cast<float>(std::max(0.0, -qz / curvature));
-            for_elements(size, [&](std::size_t i) { p[i] = z[i] + beta * p[i]; });
-        }
-        m_multigrid.product(p, q);
-        if (m_added) m_added(p, q);
-        curvature = dot(p, q, size);
         ++result.iterations;
         const bool negative = !(curvature > 0);
-        const double alpha = negative ? 0 : rz / curvature;
+        step = negative ? 0 : rz / curvature;
         if (std::isfinite(radius)) {
-            const auto [xx, xp, pp] = lengths(px, p);
-            if (negative || xx + 2 * alpha * xp + alpha * alpha * pp > radius * radius) {
+            if (negative || xx + 2 * step * xp + step * step * pp > radius * radius) {
                 const double room = std::max(0.0, radius * radius - xx);
-                const auto tau = static_cast<float>((-xp + std::sqrt(xp * xp + pp * room)) / pp);
-                for_elements(size, [&](std::size_t i) { px[i] += tau * p[i]; });
-                result.status = negative ? LinearStatus::NegativeCurvature : LinearStatus::OnBoundary;
-                return result;
+                step = (-xp + std::sqrt(xp * xp + pp * room)) / pp;
+                return finish(negative ? LinearStatus::NegativeCurvature : LinearStatus::OnBoundary);
             }
         } else if (negative) {
-            result.status = LinearStatus::NegativeCurvature;
-            return result;
+            return finish(LinearStatus::NegativeCurvature);
         }
-        result.relative_residual =
-            std::sqrt(step_along(static_cast<float>(alpha), p, q, px, r, size)) / norm_b;
-        if (result.relative_residual < tolerance) return result;
+        result.relative_residual = std::sqrt(subtract(static_cast<float>(step), q, r, size)) / norm_b;
+        if (result.relative_residual < tolerance) return finish(LinearStatus::Converged);
     }
-    result.status = LinearStatus::IterationLimit;
-    return result;
+    return finish(LinearStatus::IterationLimit);
 }
 
 }  // namespace windfall::drying

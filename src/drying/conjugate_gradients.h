@@ -39,11 +39,12 @@ class ConjugateGradients {
     double length(const AlignedArray<float>& x) const;
 
   private:
-    /// Mass-weighted inner products.
+    /// Mass-weighted inner products of x, the solution so far, and p, the direction.
     struct Lengths {
         double xx = 0, xp = 0, pp = 0;
     };
-    Lengths lengths(const float* x, const float* p) const;
+    template <class Update>
+    Lengths lengths(const float* x, const float* p, const Update& update) const;
 
     Multigrid& m_multigrid;
     const AlignedArray<float>& m_mass;

@@ -173,12 +173,13 @@ bool Multigrid::set_up() {
     return true;
 }
 
-void Multigrid::product(Level& level, const float* x, float* y) const {
+double Multigrid::product(Level& level, const float* x, float* y) const {
     const MatrixArrays matrix = level.matrix();
-    for_schedule(level.order.columns, [&](Range range) { m_table.product(matrix, x, y, range); });
+    return schedule_sum(level.order.columns,
+                        [&](Range range) { return m_table.product(matrix, x, y, range); });
 }
 
-void Multigrid::product(const float* x, float* y) const { product(*m_levels.front(), x, y); }
+double Multigrid::product(const float* x, float* y) const { return product(*m_levels.front(), x, y); }
 
 void Multigrid::apply(const float* b, float* x) { cycle(0, b, x); }
 
@@ -215,57 +216,78 @@ void Multigrid::smooth(Level& level, const float* b, float* x) {
     });
 }
 
-/// The coarsest level is solved nearly exactly: volume change over the whole fruit is seen there only, and
-/// three plain sweeps instead cost the outer iteration up to twice as many steps. The level below the finest,
-/// where it is large, takes two iterations (a K-cycle: Notay and Vassilevski 2008): near a bifurcation
-/// wrinkles move almost freely, and one cycle of the coarse levels that they live on corrects them by far
-/// too little (two cycles without conjugate gradients are no better; nor is it worth its time on a second
-/// level). The cycle is thereby not quite linear, which the outer iteration allows for.
 void Multigrid::solve(std::size_t l, const float* b, float* x) {
-    Level& level = *m_levels[l];
     if (l + 1 == m_levels.size())
-        krylov(level, b, x, {40, 1e-2},
-               [&](const float* defect, float* corrected) { smooth(level, defect, corrected); });
-    else if (l == 1 && level.columns() >= m_krylov_columns)
-        krylov(level, b, x, {2, 0},
-               [&](const float* defect, float* corrected) { cycle(l, defect, corrected); });
+        solve_coarsest(b, x);
+    else if (l == 1 && m_levels[l]->columns() >= m_krylov_columns)
+        two_iterations(l, b, x);
     else
         cycle(l, b, x);
 }
 
-template <class Preconditioner>
-void Multigrid::krylov(Level& level, const float* b, float* x, KrylovSettings settings,
-                       const Preconditioner& precondition) const {
+/// Conjugate gradients from zero with a cycle before each step (a K-cycle: Notay and Vassilevski 2008). Near
+/// a bifurcation wrinkles move almost freely, and one cycle of the coarse levels that they live on corrects
+/// them by far too little (two cycles without conjugate gradients are no better; nor is it worth its time on
+/// a second level). The preconditioner is thereby not quite linear, which the outer iteration allows for.
+void Multigrid::two_iterations(std::size_t l, const float* b, float* x) {
+    Level& level = *m_levels[l];
+    const std::size_t size = level.b.size();
+    float* r = level.defect.data();
+    float* p = level.corrected.data();
+    float* q = level.image.data();
+    cycle(l, b, x);
+    const double bx = dot(b, x, size);
+    const double curvature = product(level, x, q);
+    if (!(bx > 0)) {
+        std::fill(x, x + size, 0.0F);
+        return;
+    }
+    // Where the coarse matrix is indefinite the cycle alone is still a direction of descent.
+    if (!(curvature > 0)) return;
+    const auto first = static_cast<float>(bx / curvature);
+    for_elements(size, [=](std::size_t i) { r[i] = b[i] - first * q[i]; });
+    cycle(l, r, p);
+    const auto [rp, qp] = dots(r, q, p, size);
+    const auto beta = static_cast<float>(std::max(0.0, -qp / curvature));
+    for_elements(size, [=](std::size_t i) { p[i] += beta * x[i]; });
+    const double second_curvature = product(level, p, q);
+    const bool descends = rp > 0 && second_curvature > 0;
+    const auto second = descends ? static_cast<float>(rp / second_curvature) : 0.0F;
+    for_elements(size, [=](std::size_t i) { x[i] = first * x[i] + second * p[i]; });
+}
+
+/// Nearly exactly, by conjugate gradients: volume change over the whole fruit is seen on this level only, and
+/// three plain sweeps instead cost the outer iteration up to twice as many steps.
+void Multigrid::solve_coarsest(const float* b, float* x) {
+    constexpr int kIterations = 40;
+    constexpr double kTolerance = 1e-2;  // of the residual in the preconditioner's norm
+    Level& level = *m_levels.back();
     const std::size_t size = level.b.size();
     float* r = level.defect.data();
     float* z = level.corrected.data();
     float* p = level.direction.data();
     float* q = level.image.data();
-    for_elements(size, [&](std::size_t i) {
-        r[i] = b[i];
-        x[i] = 0;
-    });
+    std::copy(b, b + size, r);
+    std::fill(x, x + size, 0.0F);
+    level.direction.set_zero();
     double first = 0;
-    double curvature = 0;
-    for (int k = 0; k < settings.iterations; ++k) {
-        precondition(r, z);
+    double curvature = 1;
+    for (int k = 0; k < kIterations; ++k) {
+        smooth(level, r, z);
         const auto [rz, qz] = dots(r, q, z, size);
         if (k == 0) first = rz;
-        if (!(rz > settings.tolerance * settings.tolerance * first)) return;
-        if (k == 0) {
-            for_elements(size, [&](std::size_t i) { p[i] = z[i]; });
-        } else {
-            const auto beta = static_cast<float>(std::max(0.0, -qz / curvature));
-            for_elements(size, [&](std::size_t i) { p[i] = z[i] + beta * p[i]; });
-        }
-        product(level, p, q);
-        curvature = dot(p, q, size);
+        if (!(rz > kTolerance * kTolerance * first)) return;
+        const float beta = k == 0 ? 0.0F : static_cast<float>(std::max(0.0, -qz / curvature));
+        for_elements(size, [=](std::size_t i) { p[i] = z[i] + beta * p[i]; });
+        curvature = product(level, p, q);
         if (!(curvature > 0)) {
             // An indefinite coarse matrix: what has been found so far is still a direction of descent.
             if (k == 0) std::copy(z, z + size, x);
             return;
         }
-        step_along(static_cast<float>(rz / curvature), p, q, x, r, size);
+        const auto alpha = static_cast<float>(rz / curvature);
+        for_elements(size, [=](std::size_t i) { x[i] += alpha * p[i]; });
+        subtract(alpha, q, r, size);
     }
 }
 

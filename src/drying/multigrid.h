@@ -44,25 +44,18 @@ class Multigrid {
 
     /// x = one cycle for A x = b, from zero; nearly symmetric and, where A is, positive definite.
     void apply(const float* b, float* x);
-    /// y = A x
-    void product(const float* x, float* y) const;
+    /// y = A x; returns x y.
+    double product(const float* x, float* y) const;
 
   private:
     struct Level;
     bool set_up_smoother(Level& level);
     void cycle(std::size_t level, const float* b, float* x);
     void smooth(Level& level, const float* b, float* x);
-    void product(Level& level, const float* x, float* y) const;
+    double product(Level& level, const float* x, float* y) const;
     void solve(std::size_t level, const float* b, float* x);
-    /// Conjugate gradients from x = 0 until the residual has fallen by `tolerance` (in the preconditioner's
-    /// norm). `precondition(r, z)` need not be linear.
-    struct KrylovSettings {
-        int iterations = 1;
-        double tolerance = 0;
-    };
-    template <class Preconditioner>
-    void krylov(Level& level, const float* b, float* x, KrylovSettings settings,
-                const Preconditioner& precondition) const;
+    void two_iterations(std::size_t level, const float* b, float* x);
+    void solve_coarsest(const float* b, float* x);
 
     int m_layers;
     const KernelTable& m_table;

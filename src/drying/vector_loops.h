@@ -48,10 +48,9 @@ inline std::array<double, 2> dots(const float* a, const float* b, const float* c
     });
 }
 
-/// x += alpha p, r -= alpha q; returns r r.
-inline double step_along(float alpha, const float* p, const float* q, float* x, float* r, std::size_t size) {
+/// r -= alpha q; returns r r.
+inline double subtract(float alpha, const float* q, float* r, std::size_t size) {
     return lane_sums<1>(size, kVectorBlock, [=](std::size_t i, std::size_t lane, auto& sums) {
-        x[i] += alpha * p[i];
         r[i] -= alpha * q[i];
         sums[0][lane] += static_cast<double>(r[i]) * r[i];
     })[0];

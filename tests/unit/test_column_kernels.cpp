@@ -108,9 +108,13 @@ TEST_P(ColumnKernels, ProductIsThatOfTheSymmetricMatrix) {
     RandomLevel level({3, 4, 2}, GetParam().layers);
     const AlignedArray<float> x = random_floats(level.size(), 1);
     AlignedArray<float> y(x.size());
-    m_table.product(level.matrix(), x.data(), y.data(), {0, level.order.column_count()});
-    const Eigen::VectorXd expected = level.dense * to_eigen(x);
+    const std::int32_t columns = level.order.column_count();
+    double inner = m_table.product(level.matrix(), x.data(), y.data(), {0, columns / 3});
+    inner += m_table.product(level.matrix(), x.data(), y.data(), {columns / 3, columns});
+    const Eigen::VectorXd right = to_eigen(x);
+    const Eigen::VectorXd expected = level.dense * right;
     EXPECT_LT((to_eigen(y) - expected).norm(), 1e-5 * expected.norm());
+    EXPECT_NEAR(inner, right.dot(expected), 1e-6 * right.norm() * expected.norm());
 }
 
 /// The smoother of a level, with the scale of lower blocks that the tests use.

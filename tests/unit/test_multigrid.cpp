@@ -121,6 +121,24 @@ TEST(Multigrid, SolutionAgreesWithADenseSolver) {
     EXPECT_LT((found - expected).norm(), 1e-4 * expected.norm());
 }
 
+TEST(Multigrid, SolverStoppedEarlyTellsItsResidual) {
+    Body body(8);
+    ASSERT_TRUE(body.multigrid.set_up());
+    const AlignedArray<float> b = random_vector(body.elasticity.size(), 5);
+    ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+    AlignedArray<float> x(b.size());
+    AlignedArray<float> residual(b.size());
+    for (const int limit : {1, 2, 3}) {
+        const LinearResult result = solver.solve(b, x, 1e-6, limit, kNoRadius, {});
+        EXPECT_EQ(result.status, LinearStatus::IterationLimit);
+        EXPECT_EQ(result.iterations, limit);
+        body.multigrid.product(x.data(), residual.data());
+        for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - residual[i];
+        const double found = std::sqrt(dot(residual, residual) / dot(b, b));
+        EXPECT_NEAR(result.relative_residual, found, 1e-4 * found + 1e-6);
+    }
+}
+
 TEST(Multigrid, TrustRegionBoundsTheStep) {
     Body body(8);
     ASSERT_TRUE(body.multigrid.set_up());

@@ -41,8 +41,10 @@ __attribute__((always_inline)) inline void prefetch(const void* begin, const voi
 }
 
 template <int L>
-void product(const MatrixArrays& m, const float* x, float* y, Range columns) {
+double product(const MatrixArrays& m, const float* x, float* y, Range columns) {
     using F = typename LaneTypes<L>::F;
+    using D = typename LaneTypes<L>::D;
+    D inner = {};
     const std::int64_t last = m.lower_begin[columns.end];
     for (std::int64_t v = columns.begin; v < columns.end; ++v) {
         const F* xv = reinterpret_cast<const F*>(x + 3 * v * L);
@@ -67,7 +69,13 @@ void product(const MatrixArrays& m, const float* x, float* y, Range columns) {
         }
         F* yv = reinterpret_cast<F*>(y + 3 * v * L);
         for (int i = 0; i < 3; ++i) yv[i] = -negative[i];
+        // The lower blocks stand for the upper ones too, the diagonal for itself.
+        inner += __builtin_convertvector(minus[0] * (2 * negative[0] + sum[0]) +
+                                             minus[1] * (2 * negative[1] + sum[1]) +
+                                             minus[2] * (2 * negative[2] + sum[2]),
+                                         D);
     }
+    return sum_of_lanes(inner);
 }
 
 /// Offset of a column's inverse in SmootherArrays::packed; its lower blocks follow.
