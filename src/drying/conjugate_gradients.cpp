@@ -17,10 +17,9 @@ ConjugateGradients::ConjugateGradients(Multigrid& multigrid, const AlignedArray<
       m_direction(multigrid.vector_size()),
       m_product(multigrid.vector_size()) {}
 
-/// Each block's sums in `Lengths`, added in order; `update(i)` changes x and p at i before they are read.
 template <class Update>
-ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const float* p,
-                                                        const Update& update) const {
+ConjugateGradients::Lengths ConjugateGradients::updated_lengths(const float* x, const float* p,
+                                                                const Update& update) const {
     constexpr std::size_t kLanes = 8;
     constexpr std::size_t kMassBlock = 256;  // columns
     const auto layers = static_cast<std::size_t>(m_multigrid.layers());
@@ -56,7 +55,7 @@ ConjugateGradients::Lengths ConjugateGradients::lengths(const float* x, const fl
 }
 
 double ConjugateGradients::length(const AlignedArray<float>& x) const {
-    return std::sqrt(lengths(x.data(), x.data(), [](std::size_t) {}).xx);
+    return std::sqrt(updated_lengths(x.data(), x.data(), [](std::size_t) {}).xx);
 }
 
 LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArray<float>& x, double tolerance,
@@ -82,7 +81,7 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
     double step = 0;
     const auto finish = [&](LinearStatus status) {
         const auto last = static_cast<float>(step);
-        for_elements(size, [=](std::size_t i) { px[i] += last * p[i]; });
+        if (last != 0) for_elements(size, [=](std::size_t i) { px[i] += last * p[i]; });
         result.status = status;
         return result;
     };
@@ -96,7 +95,7 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
         // Conjugate to the last direction, whatever the preconditioner: the half-precision smoother is not
         // exactly symmetric, and the usual quotient of two rz would not know.
         const auto beta = result.iterations == 0 ? 0.0F : static_cast<float>(std::max(0.0, -qz / curvature));
-        const auto [xx, xp, pp] = lengths(px, p, [=, last = static_cast<float>(step)](std::size_t i) {
+        const auto [xx, xp, pp] = updated_lengths(px, p, [=, last = static_cast<float>(step)](std::size_t i) {
             px[i] += last * p[i];
             p[i] = z[i] + beta * p[i];
         });

@@ -43,8 +43,9 @@ class ConjugateGradients {
     struct Lengths {
         double xx = 0, xp = 0, pp = 0;
     };
+    /// Calls update(i), which changes x[i] and p[i], for all i, then takes the products; in one pass.
     template <class Update>
-    Lengths lengths(const float* x, const float* p, const Update& update) const;
+    Lengths updated_lengths(const float* x, const float* p, const Update& update) const;
 
     Multigrid& m_multigrid;
     const AlignedArray<float>& m_mass;

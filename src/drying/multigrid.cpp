@@ -56,8 +56,9 @@ struct Multigrid::Level {
     AlignedArray<float> inverse_factor;
     float matrix_scale = 1;
     AlignedArray<float> residual;
-    AlignedArray<float> b, x;  ///< these and those below: not on the finest level
-    AlignedArray<float> defect, corrected, direction, image;
+    AlignedArray<float> b, x;                      ///< not on the finest level
+    AlignedArray<float> defect, corrected, image;  ///< where conjugate gradients solve
+    AlignedArray<float> direction;                 ///< on the coarsest level
 
     // To the next coarser level; empty on the coarsest.
     std::vector<std::int32_t> child_begin, child_column, parent_count;
@@ -73,7 +74,11 @@ struct Multigrid::Level {
           inverse_factor(columns()),
           residual(columns() * 3 * layers) {
         if (!below) return;
-        for (AlignedArray<float>* array : {&b, &x, &defect, &corrected, &direction, &image})
+        for (AlignedArray<float>* array : {&b, &x}) *array = AlignedArray<float>(residual.size());
+    }
+
+    void prepare_conjugate_gradients() {
+        for (AlignedArray<float>* array : {&defect, &corrected, &image})
             *array = AlignedArray<float>(residual.size());
     }
 
@@ -117,7 +122,7 @@ struct Multigrid::Level {
 
 Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const KernelTable& table,
                      std::size_t krylov_columns)
-    : m_layers(layers), m_table(table), m_krylov_columns(krylov_columns) {
+    : m_layers(layers), m_table(table) {
     m_levels.push_back(std::make_unique<Level>(brick, layers, false));
     while (geometry::can_coarsen(m_levels.back()->brick.cells)) {
         m_levels.push_back(std::make_unique<Level>(
@@ -125,6 +130,11 @@ Multigrid::Multigrid(const geometry::BrickSurface& brick, int layers, const Kern
         m_levels[m_levels.size() - 2]->connect(*m_levels.back());
     }
     if (m_levels.size() < 2) throw std::logic_error("multigrid needs cells that can be halved");
+    Level& coarsest = *m_levels.back();
+    coarsest.prepare_conjugate_gradients();
+    coarsest.direction = AlignedArray<float>(coarsest.residual.size());
+    if (m_levels.size() > 2 && m_levels[1]->columns() >= krylov_columns)
+        m_levels[1]->prepare_conjugate_gradients();
 }
 
 Multigrid::~Multigrid() = default;
@@ -219,7 +229,7 @@ void Multigrid::smooth(Level& level, const float* b, float* x) {
 void Multigrid::solve(std::size_t l, const float* b, float* x) {
     if (l + 1 == m_levels.size())
         solve_coarsest(b, x);
-    else if (l == 1 && m_levels[l]->columns() >= m_krylov_columns)
+    else if (m_levels[l]->image.size() > 0)
         two_iterations(l, b, x);
     else
         cycle(l, b, x);
@@ -227,8 +237,9 @@ void Multigrid::solve(std::size_t l, const float* b, float* x) {
 
 /// Conjugate gradients from zero with a cycle before each step (a K-cycle: Notay and Vassilevski 2008). Near
 /// a bifurcation wrinkles move almost freely, and one cycle of the coarse levels that they live on corrects
-/// them by far too little (two cycles without conjugate gradients are no better; nor is it worth its time on
-/// a second level). The preconditioner is thereby not quite linear, which the outer iteration allows for.
+/// them by far too little (two cycles without conjugate gradients are no better; on a second level two
+/// iterations cost what they save). The preconditioner is thereby not quite linear, which the outer iteration
+/// allows for.
 void Multigrid::two_iterations(std::size_t l, const float* b, float* x) {
     Level& level = *m_levels[l];
     const std::size_t size = level.b.size();
@@ -248,11 +259,17 @@ void Multigrid::two_iterations(std::size_t l, const float* b, float* x) {
     for_elements(size, [=](std::size_t i) { r[i] = b[i] - first * q[i]; });
     cycle(l, r, p);
     const auto [rp, qp] = dots(r, q, p, size);
-    const auto beta = static_cast<float>(std::max(0.0, -qp / curvature));
-    for_elements(size, [=](std::size_t i) { p[i] += beta * x[i]; });
-    const double second_curvature = product(level, p, q);
-    const bool descends = rp > 0 && second_curvature > 0;
-    const auto second = descends ? static_cast<float>(rp / second_curvature) : 0.0F;
+    double second_curvature = 0;
+    if (rp > 0) {
+        const auto beta = static_cast<float>(std::max(0.0, -qp / curvature));
+        for_elements(size, [=](std::size_t i) { p[i] += beta * x[i]; });
+        second_curvature = product(level, p, q);
+    }
+    if (!(second_curvature > 0)) {
+        for_elements(size, [=](std::size_t i) { x[i] *= first; });
+        return;
+    }
+    const auto second = static_cast<float>(rp / second_curvature);
     for_elements(size, [=](std::size_t i) { x[i] = first * x[i] + second * p[i]; });
 }
 

@@ -59,7 +59,6 @@ class Multigrid {
 
     int m_layers;
     const KernelTable& m_table;
-    std::size_t m_krylov_columns;
     std::vector<std::unique_ptr<Level>> m_levels;  ///< finest first
 };
 

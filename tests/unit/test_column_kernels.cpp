@@ -222,7 +222,7 @@ TEST_P(ColumnKernels, SweepsAreSymmetricGaussSeidel) {
 }
 
 TEST_P(ColumnKernels, CoarseMatrixIsGalerkins) {
-    RandomLevel fine({4, 8, 4}, GetParam().layers);
+    RandomLevel fine({4, 4, 4}, GetParam().layers);
     RandomLevel coarse(geometry::coarser(fine.brick.cells), GetParam().layers);
     const int layers = GetParam().layers;
     const auto parents = geometry::brick_parents(fine.brick, coarse.brick);

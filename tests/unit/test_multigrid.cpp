@@ -4,8 +4,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "core/parallel.h"
 #include "drying/conjugate_gradients.h"
 #include "support/small_body.h"
 
@@ -93,6 +95,21 @@ TEST(Multigrid, TwoIterationsOnLargeLevelsLeadToTheSameSolution) {
     for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= solutions[1][i];
     EXPECT_GT(dot(difference, difference), 0);
     EXPECT_LT(dot(difference, difference), 1e-6 * dot(solutions[0], solutions[0]));
+}
+
+TEST(Multigrid, SameBitsForAnyThreadCount) {
+    std::vector<AlignedArray<float>> solutions;
+    for (const int threads : {1, 3}) {
+        const ThreadLimit limit(threads);
+        Body body(32, 8, 300);  // two iterations on a level of 1,538 columns
+        ASSERT_TRUE(body.multigrid.set_up());
+        ConjugateGradients solver(body.multigrid, body.elasticity.mean_weights());
+        const AlignedArray<float> b = random_vector(body.elasticity.size(), 3);
+        AlignedArray<float> x(b.size());
+        EXPECT_EQ(solver.solve(b, x, 1e-4, 200, 1e3, {}).status, LinearStatus::Converged);
+        solutions.push_back(std::move(x));
+    }
+    EXPECT_EQ(std::memcmp(solutions[0].data(), solutions[1].data(), solutions[0].size() * sizeof(float)), 0);
 }
 
 TEST(Multigrid, SolutionAgreesWithADenseSolver) {

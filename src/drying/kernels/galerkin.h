@@ -1,8 +1,9 @@
 // Coarse matrices P^T A P. Included inside the namespace of one instruction set (see lanes.h).
 //
 // A block of the coarse matrix is a sum of blocks of the fine one, each times a weight. The blocks of a
-// coarse row are first sorted by the entry that they go to; then each entry is summed in registers, nine
-// vectors at a time, where adding block by block would read and write the entry once for each.
+// coarse row are first sorted by the entry that they go to; then each entry is summed nine vectors at a
+// time, which registers hold (but those of AVX2 with 16 layers), where adding block by block would read and
+// write the entry once for each.
 
 /// The fine blocks that go to one entry of a coarse row.
 template <int L>
@@ -48,7 +49,8 @@ class CoarseEntry {
     }
 
   private:
-    /// A coarse column has at most 9 children, each with at most 9 blocks in its row.
+    /// A coarse column has at most 9 children, each with at most 9 blocks in its row; a block goes to an
+    /// entry at most once.
     static constexpr int kMostTerms = 81;
     struct Term {
         const float* block;
@@ -107,7 +109,8 @@ void galerkin(const MatrixArrays& fine, const UpperArrays& upper, const Transfer
             const std::int64_t child = t.child_column[c];
             const float weight = t.child_weight[c];
             add(CoarseEntry<L>::Diagonal, fine.diagonal + child * 18 * L, static_cast<int>(child), weight);
-            // Summing comes later, when all of the row's blocks are known: by then they are near.
+            // Summing comes later, when all of the row's blocks are known: by then these are near. Blocks
+            // above the child are as a rule in another child's row.
             prefetch(fine.lower + static_cast<std::int64_t>(fine.lower_begin[child]) * 27 * L,
                      fine.lower + static_cast<std::int64_t>(fine.lower_begin[child + 1]) * 27 * L);
             for (int e = fine.lower_begin[child]; e < fine.lower_begin[child + 1]; ++e)

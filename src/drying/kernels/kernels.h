@@ -112,8 +112,8 @@ struct KernelTable {
     void (*assemble_fibres)(const ElementArrays&, FibreArrays, const double* displacement,
                             const std::int32_t (*pair_entry)[6], TangentFactors, MatrixArrays, Range quads);
 
-    /// y = A x; returns what the range adds to x y. Ranges in solver order: y of earlier columns must have
-    /// been set already.
+    /// y = A x; returns what the range adds to x y (products in single precision, sums in double). Ranges in
+    /// solver order: y of earlier columns must have been set already.
     double (*product)(const MatrixArrays&, const float* x, float* y, Range columns);
 
     /// Inverts the diagonal blocks into the smoother; `matrix_scale` is set already. False where a block is
