@@ -1,14 +1,12 @@
 #include "fracture/tree_hangers.h"
 
-#include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "core/error.h"
+#include "geometry/embree_scene.h"
 
 namespace windfall::fracture {
 namespace {
@@ -20,7 +18,7 @@ class NearestBody {
   public:
     NearestBody(const TreeSurface& surface, const std::vector<double>& sizes)
         : m_surface(surface), m_sizes(sizes) {
-        m_device = rtcNewDevice("threads=1,set_affinity=0");
+        m_device = geometry::new_embree_device();
         if (m_device == nullptr) throw RunError("Embree, which finds what leaves hang on, did not start");
         m_scene = rtcNewScene(m_device);
         RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -40,9 +38,7 @@ class NearestBody {
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(m_scene, geometry);
         rtcReleaseGeometry(geometry);
-        // One thread builds: with more, ties between triangles would depend on their number.
-        tbb::task_arena one_thread(1);
-        one_thread.execute([&] { rtcCommitScene(m_scene); });
+        geometry::commit_scene(m_scene);
     }
     ~NearestBody() {
         rtcReleaseScene(m_scene);

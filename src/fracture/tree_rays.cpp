@@ -1,20 +1,19 @@
 #include "fracture/tree_rays.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <limits>
 
 #include "core/error.h"
 #include "fracture/tree_text.h"
+#include "geometry/embree_scene.h"
 
 namespace windfall::fracture {
 
 using geometry::Vec3;
 
 struct TreeRays::Scene {
-    RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+    RTCDevice device = geometry::new_embree_device();
     RTCScene scene = nullptr;
 
     Scene() = default;
@@ -55,9 +54,7 @@ TreeRays::TreeRays(const TreeSurface& surface, std::vector<std::int32_t> triangl
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(m_scene->scene, geometry);
     rtcReleaseGeometry(geometry);
-    // One thread builds: with more, ties between triangles would depend on their number.
-    tbb::task_arena one_thread(1);
-    one_thread.execute([&] { rtcCommitScene(m_scene->scene); });
+    geometry::commit_scene(m_scene->scene);
 }
 
 TreeRays::~TreeRays() = default;

@@ -1,13 +1,12 @@
 #include "picture/surfaces.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
+#include "geometry/embree_scene.h"
 #include "picture/hair_curves.h"
 #include "picture/texture_lookup.h"
 
@@ -86,10 +85,7 @@ Vec3f seen_normal(const Vec3f& smooth, const Vec3f& face_normal, const Vec3f& to
 }  // namespace
 
 Surfaces::Surfaces(const Scene& scene) : m_scene(scene), m_handles(std::make_unique<Handles>()) {
-    // One thread builds the tree: with more, its shape, and with it ties between facets, would depend on
-    // their number.
-    tbb::task_arena one_thread(1);
-    m_handles->device = rtcNewDevice("threads=1,set_affinity=0");
+    m_handles->device = geometry::new_embree_device();
     if (m_handles->device == nullptr) m_handles->check();
     m_handles->scene = rtcNewScene(m_handles->device);
     rtcSetSceneBuildQuality(m_handles->scene, RTC_BUILD_QUALITY_HIGH);
@@ -117,7 +113,7 @@ Surfaces::Surfaces(const Scene& scene) : m_scene(scene), m_handles(std::make_uni
         }
     }
     m_lift = 2e-5F * std::max(m_low.cwiseAbs().maxCoeff(), m_high.cwiseAbs().maxCoeff());
-    one_thread.execute([&] { rtcCommitScene(m_handles->scene); });
+    geometry::commit_scene(m_handles->scene);
     m_handles->check();
 }
 

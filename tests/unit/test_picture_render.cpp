@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <atomic>
 #include <numeric>
@@ -7,6 +8,7 @@
 #include "core/parallel.h"
 #include "picture/path_tracer.h"
 #include "picture/stage.h"
+#include "picture/surfaces.h"
 #include "synthetic_fruit.h"
 
 namespace windfall::picture {
@@ -128,6 +130,14 @@ TEST(PictureRender, SameBitsOnOneAndTwoThreads) {
     EXPECT_EQ(one.pixels, two.pixels);
     settings.seed = 1;
     EXPECT_NE(one.pixels, render(scene, settings).pixels);
+}
+
+TEST(PictureRender, SurfacesLeaveAllThreadsToTheRays) {
+    constexpr auto kThreads = tbb::global_control::max_allowed_parallelism;
+    const Scene scene = studio();
+    const std::size_t before = tbb::global_control::active_value(kThreads);
+    const Surfaces surfaces(scene);
+    EXPECT_EQ(tbb::global_control::active_value(kThreads), before);
 }
 
 TEST(PictureRender, DenoisingBringsAFewSamplesNearerToMany) {
