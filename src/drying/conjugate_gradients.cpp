@@ -100,10 +100,7 @@ LinearResult ConjugateGradients::solve(const AlignedArray<float>& b, AlignedArra
             p[i] = z[i] + beta * p[i];
         });
         curvature = m_multigrid.product(p, q);
-        if (m_added) {
-            m_added(p, q);
-            curvature = dot(p, q, size);
-        }
+        if (m_added) curvature += m_added(p, q);
         ++result.iterations;
         const bool negative = !(curvature > 0);
         step = negative ? 0 : rz / curvature;

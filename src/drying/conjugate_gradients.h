@@ -21,8 +21,8 @@ struct LinearResult {
     double relative_residual = 1;
 };
 
-/// Adds to y what a symmetric matrix beside the multigrid's makes of x.
-using AddedProduct = std::function<void(const float* x, float* y)>;
+/// Adds to y what a symmetric matrix beside the multigrid's makes of x; returns what that adds to x y.
+using AddedProduct = std::function<double(const float* x, float* y)>;
 
 /// Solves A x = b with the multigrid's finest matrix, plus an added one if there is any. Single precision
 /// vectors, double sums in a fixed order.

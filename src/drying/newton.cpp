@@ -42,7 +42,7 @@ NewtonSolver::NewtonSolver(Elasticity& elasticity, SkinContact* contact)
       m_linear(
           elasticity.multigrid(), elasticity.mean_weights(),
           contact == nullptr ? AddedProduct()
-                             : [contact](const float* x, float* y) { contact->add_product(x, y); }),
+                             : [contact](const float* x, float* y) { return contact->add_product(x, y); }),
       m_current(elasticity.size()),
       m_trial(elasticity.size()),
       m_corrected(elasticity.size()),

@@ -186,18 +186,22 @@ void SkinContact::add_to_diagonal(const MatrixArrays& matrix) const {
         }
 }
 
-void SkinContact::add_product(const float* x, float* y) const {
+double SkinContact::add_product(const float* x, float* y) const {
+    double inner = 0;
     for (const Term& term : m_terms) {
         std::array<float, 4> along{};
         for (std::size_t p = 0; p < 4; ++p)
             for (std::size_t i = 0; i < 3; ++i)
                 along[p] += term.direction[3 * p + i] * x[place(term.vertices[p]) + i * m_layers];
         const float sum = (along[0] + along[1]) + (along[2] + along[3]);
-        for (std::size_t p = 0; p < 4; ++p)
+        for (std::size_t p = 0; p < 4; ++p) {
+            const float rest = sum - kPreconditioned * along[p];
             for (std::size_t i = 0; i < 3; ++i)
-                y[place(term.vertices[p]) + i * m_layers] +=
-                    (sum - kPreconditioned * along[p]) * term.direction[3 * p + i];
+                y[place(term.vertices[p]) + i * m_layers] += rest * term.direction[3 * p + i];
+            inner += rest * along[p];
+        }
     }
+    return inner;
 }
 
 }  // namespace windfall::drying

@@ -42,8 +42,8 @@ class SkinContact {
     void linearize(const AlignedArray<double>& displacement);
     /// Adds to the matrix the share that a preconditioner can hold: each node's own block.
     void add_to_diagonal(const MatrixArrays& matrix) const;
-    /// y += what `add_to_diagonal` left out, times x.
-    void add_product(const float* x, float* y) const;
+    /// y += what `add_to_diagonal` left out, times x; returns what that adds to x y.
+    double add_product(const float* x, float* y) const;
 
   private:
     /// A pair closer than the gap.
